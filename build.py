@@ -1,0 +1,409 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Glimmer's one command for setting up, building, rendering, testing and packaging.
+
+A thin driver over apt, CMake presets, Blender, pytest and zipfile. Standard library only, because on a fresh Debian 12
+it runs before anything else is installed (that python3 has neither venv nor pip).
+"""
+
+import argparse
+import hashlib
+import os
+import platform
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import time
+import zipfile
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+ENGINE = ROOT / "engine"
+ADDON = ROOT / "addon"
+BUILD = ROOT / "build"
+COMMAND = BUILD / "bin" / "glimmer"
+LIBRARY = BUILD / "lib" / "libglimmer.so"
+RENDER_SCRIPT = ROOT / "tools" / "render_blend.py"
+DEFAULT_SCENE = ROOT / "blend_scenes" / "glimmervoid.blend"
+REQUIREMENTS = ROOT / "tests" / "requirements"
+
+
+class BuildError(Exception):
+    """What stopped the command, in words for the user."""
+
+
+def say(text: str) -> None:
+    sys.stdout.write(text + "\n")
+    sys.stdout.flush()
+
+
+def run(command: Sequence[str | Path], cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:
+    """Runs a command with its output passed through; a failure names the command."""
+    words = [str(word) for word in command]
+    try:
+        status = subprocess.run(words, cwd=cwd, env=env, check=False).returncode
+    except FileNotFoundError:
+        raise BuildError(
+            f"{words[0]} is not installed; `python3 build.py setup --test` installs what is missing"
+        ) from None
+    if status != 0:
+        raise BuildError(f"exit status {status} from: {shlex.join(words)}")
+
+
+# ---- What the machine needs --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Package:
+    """A Debian package, what needs it ("build", "render" or "test"), and why."""
+
+    name: str
+    purpose: str
+    why: str
+
+
+PACKAGES = (
+    Package("g++", "build", "compiler"),
+    Package("cmake", "build", "drives the build"),
+    Package("ninja-build", "build", "runs the build"),
+    Package("libembree-dev", "build", "ray tracing, headers and library"),
+    Package("libopenimageio-dev", "build", "pictures in and out of the command line"),
+    Package("nlohmann-json3-dev", "build", "scene files"),
+    Package("libtinyobjloader-dev", "build", ".obj meshes"),
+    Package("blender", "render", "the host"),
+    Package("python3-numpy", "render", "Debian's Blender does not bring it"),
+    Package("python3-venv", "test", "virtual environments of the tests"),
+    Package("ca-certificates", "test", "pip's downloads"),
+    Package("clang-format", "test", "lint of the engine"),
+    Package("libx11-6", "test", "the bpy wheel"),
+    Package("libxrender1", "test", "the bpy wheel"),
+    Package("libxfixes3", "test", "the bpy wheel"),
+    Package("libxi6", "test", "the bpy wheel"),
+    Package("libxkbcommon0", "test", "the bpy wheel"),
+    Package("libsm6", "test", "the bpy wheel"),
+    Package("libice6", "test", "the bpy wheel"),
+    Package("libgl1", "test", "the bpy wheel"),
+)
+
+
+def wanted_packages(purposes: Iterable[str], blender: Path | None) -> list[str]:
+    """The packages for some purposes. A Blender that is not Debian's replaces `blender` and brings its own numpy."""
+    wanted = set(purposes)
+    foreign = blender is not None and not blender.resolve().is_relative_to("/usr/bin")
+    return [p.name for p in PACKAGES if p.purpose in wanted and not (foreign and p.purpose == "render")]
+
+
+def missing_packages(names: Sequence[str]) -> list[str]:
+    query = ["dpkg-query", "--show", "--showformat=${db:Status-Status} ${Package}\n", *names]
+    result = subprocess.run(query, capture_output=True, text=True, check=False)
+    installed = {line.split(" ", 1)[1] for line in result.stdout.splitlines() if line.startswith("installed ")}
+    return [name for name in names if name not in installed]
+
+
+def install_packages(names: Sequence[str]) -> None:
+    """Installs what is missing of `names`, without a question, and leaves alone what is there."""
+    if shutil.which("dpkg-query") is None:
+        say(f"No apt here: presuming that these, or their like, are installed: {' '.join(names)}")
+        return
+    missing = missing_packages(names)
+    if not missing:
+        return
+    apt = ["apt-get", "-y", "-o", "DPkg::Lock::Timeout=300", "-o", "Acquire::Retries=3"]
+    install = [*apt, "install", "--no-install-recommends", *missing]
+    if os.geteuid() != 0:
+        line = f"sudo sh -c 'apt-get update && apt-get install -y --no-install-recommends {' '.join(missing)}'"
+        raise BuildError(
+            f"packages are missing; as root this command installs them, so do it once yourself:\n\n    {line}\n"
+        )
+    say(f"Installing {', '.join(missing)}")
+    env = {**os.environ, "DEBIAN_FRONTEND": "noninteractive", "DEBCONF_NONINTERACTIVE_SEEN": "true"}
+    run([*apt, "update"], env=env)
+    run(install, env=env)
+
+
+# ---- Virtual environments ----------------------------------------------------------------------------------------
+
+
+def python_311() -> str:
+    """A Python 3.11 that can make virtual environments; the bpy 5.0 wheel takes no other version."""
+    probe = "import sys, venv, ensurepip; sys.exit(sys.version_info[:2] != (3, 11))"
+    for candidate in ("/usr/bin/python3.11", shutil.which("python3.11"), sys.executable):
+        if not candidate or not Path(candidate).exists():
+            continue
+        if subprocess.run([candidate, "-c", probe], capture_output=True, check=False).returncode == 0:
+            return candidate
+    raise BuildError("the tests need a Python 3.11 with venv (Debian 12: apt-get install python3-venv)")
+
+
+def virtual_environment(name: str) -> Path:
+    """build/venv/NAME with what tests/requirements/NAME.txt pins; made anew when that file changes. Its python."""
+    requirements = REQUIREMENTS / f"{name}.txt"
+    folder = BUILD / "venv" / name
+    python = folder / "bin" / "python"
+    stamp = folder / "requirements.sha256"
+    digest = hashlib.sha256(requirements.read_bytes() + bytes(folder)).hexdigest()
+    if stamp.exists() and stamp.read_text() == digest:
+        return python
+    say(f"Making the virtual environment {folder.relative_to(ROOT)}")
+    run([python_311(), "-m", "venv", "--clear", folder])
+    run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input", "-r", requirements])
+    stamp.write_text(digest)
+    return python
+
+
+# ---- Blender -----------------------------------------------------------------------------------------------------
+
+
+def find_blender(given: str | None) -> Path | None:
+    """--blender PATH, else the one on PATH; None when there is none yet."""
+    if given is not None:
+        path = shutil.which(given)
+        if path is None:
+            raise BuildError(f"--blender {given}: no such executable")
+        return Path(path).absolute()
+    found = shutil.which("blender")
+    return Path(found) if found else None
+
+
+def host_command(blender: Path | None, script: Path) -> list[str | Path]:
+    """The command that runs `script` inside Blender, or inside the bpy module where there is no Blender."""
+    if blender is not None:
+        return [blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python", script, "--"]
+    return [virtual_environment("bpy"), script, "--"]
+
+
+def host_environment(profile: Path) -> dict[str, str]:
+    """An environment in which Blender sees nothing of the user's but a profile of ours, with addon/ as `glimmer`."""
+    addons = profile / "scripts" / "addons"
+    addons.mkdir(parents=True, exist_ok=True)
+    link = addons / "glimmer"
+    if not link.is_symlink() or link.readlink() != ADDON:
+        link.unlink(missing_ok=True)
+        link.symlink_to(ADDON, target_is_directory=True)
+    return {
+        **os.environ,
+        "BLENDER_USER_RESOURCES": str(profile),
+        "BLENDER_USER_CONFIG": str(profile / "config"),
+        "BLENDER_USER_SCRIPTS": str(profile / "scripts"),
+        "GLIMMER_LIB_DIR": str(LIBRARY.parent),
+    }
+
+
+# ---- Commands ----------------------------------------------------------------------------------------------------
+
+
+def setup(blender: str | None, purposes: Sequence[str]) -> Path | None:
+    """Installs what is missing for `purposes`; returns the Blender to use (None: the bpy wheel)."""
+    found = find_blender(blender)
+    install_packages(wanted_packages(purposes, found))
+    return found or find_blender(None)
+
+
+def build(preset: str = "release") -> None:
+    """Configures when needed and compiles. The release preset leaves build/bin/glimmer and build/lib/libglimmer.so."""
+    folder = BUILD / preset
+    home = f"CMAKE_HOME_DIRECTORY:INTERNAL={ENGINE}\n"
+    if not (folder / "build.ninja").exists() or home not in (folder / "CMakeCache.txt").read_text():
+        # --fresh: what a failed try or a checkout since moved left behind
+        run(["cmake", "--fresh", "--preset", preset], cwd=ENGINE)
+    run(["cmake", "--build", "--preset", preset], cwd=ENGINE)
+
+
+@dataclass(frozen=True)
+class RenderOptions:
+    scene: Path
+    output: Path | None
+    samples: int | None
+    resolution: int | None
+    frame: int | None
+
+
+def render(blender: str | None, options: RenderOptions) -> None:
+    if not options.scene.exists():
+        raise BuildError(f"{options.scene}: no such file; the scenes are blend_scenes/*.blend")
+    executable = setup(blender, ("build", "render"))
+    build()
+    stem = options.output or BUILD / "renders" / options.scene.stem
+    pictures = [stem.with_name(stem.name + suffix) for suffix in (".png", ".exr")]
+    for picture in pictures:
+        picture.parent.mkdir(parents=True, exist_ok=True)
+        picture.unlink(missing_ok=True)  # what stands there afterwards is this render's
+    arguments = ["--scene", options.scene, "--output", stem]
+    for name in ("samples", "resolution", "frame"):
+        value = getattr(options, name)
+        if value is not None:
+            arguments += [f"--{name}", str(value)]
+    started = time.monotonic()
+    run([*host_command(executable, RENDER_SCRIPT), *arguments], env=host_environment(BUILD / "profile"))
+    for picture in pictures:
+        if not picture.exists():
+            raise BuildError(f"Blender ended without an error and without {picture}")
+    say(f"Rendered in {time.monotonic() - started:.1f} s:")
+    for picture in pictures:
+        say(f"  {picture}")
+
+
+def test(blender: str | None, full: bool, extra: Sequence[str]) -> None:
+    executable = setup(blender, ("build", "render", "test"))
+    build()
+    python = virtual_environment("test")
+    env = {
+        **os.environ,
+        "GLIMMER_BIN": str(COMMAND),
+        "GLIMMER_LIB_DIR": str(LIBRARY.parent),
+        "GLIMMER_BPY_PYTHON": str(virtual_environment("bpy")),
+    }
+    if executable is not None:
+        env["GLIMMER_BLENDER"] = str(executable)
+    run([python, "-m", "pytest", *(["--full"] if full else []), *extra], env=env)
+
+
+def lint() -> None:
+    """Every check runs, also after one has failed."""
+    install_packages(wanted_packages(("build", "test"), None))
+    python = virtual_environment("test")
+    sources = sorted(path for suffix in ("cpp", "h", "c") for path in ENGINE.rglob(f"*.{suffix}"))
+    checks: tuple[list[str | Path], ...] = (
+        [python, "-m", "ruff", "check", ROOT],
+        [python, "-m", "ruff", "format", "--check", ROOT],
+        [python, "-m", "mypy", "build.py", "addon", "blend_scenes", "tests", "tools"],
+        ["clang-format", "--dry-run", "-Werror", *sources],
+    )
+    failures = []
+    for check in checks:
+        say(f"-- {shlex.join(str(word) for word in check[:5])}")
+        try:
+            run(check)
+        except BuildError as error:
+            failures.append(shlex.join(str(word) for word in check[:5]))
+            if "not installed" in str(error):
+                raise
+    say("-- compiler warnings")
+    build()  # with -Wall -Wextra -Wconversion -Werror
+    if failures:
+        raise BuildError("lint found faults, printed above: " + "; ".join(failures))
+
+
+def addon_version() -> str:
+    found = re.search(r'^version\s*=\s*"([^"]+)"', (ADDON / "blender_manifest.toml").read_text(), re.MULTILINE)
+    if not found:
+        raise BuildError(f"{ADDON / 'blender_manifest.toml'}: no version")
+    return found.group(1)
+
+
+def package() -> Path:
+    """One zip that installs as an add-on (3.4 on) and as an extension (4.2 on). The same files give the same bytes."""
+    install_packages(wanted_packages(("build",), None))
+    build()
+    files = {
+        f"glimmer/{path.relative_to(ADDON).as_posix()}": path
+        for path in ADDON.rglob("*")
+        if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".pyc" and path.parent != ADDON / "lib"
+    }
+    files["glimmer/LICENSE"] = ROOT / "LICENSE"
+    files["glimmer/lib/libglimmer.so"] = LIBRARY
+    target = BUILD / "dist" / f"glimmer-{addon_version()}-linux-{platform.machine()}.zip"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    partial = target.with_suffix(".partial")
+    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in sorted(files):
+            entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+            entry.external_attr = 0o644 << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, files[name].read_bytes())
+    partial.replace(target)
+    say(str(target))
+    return target
+
+
+def clean() -> None:
+    shutil.rmtree(BUILD, ignore_errors=True)
+
+
+# ---- The command line --------------------------------------------------------------------------------------------
+
+
+def arguments() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="build.py",
+        description="Sets up, builds, renders, tests and packages Glimmer.",
+        epilog="Start with `python3 build.py render`: it installs what is missing, builds and renders a picture.\n"
+        "Everything it makes stands under build/. `build.py COMMAND --help` tells more.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    with_blender = argparse.ArgumentParser(add_help=False)
+    with_blender.add_argument(
+        "--blender",
+        metavar="PATH",
+        help="the Blender to use (default: the one on PATH, else Debian's, else the bpy wheel)",
+    )
+
+    def command(name: str, text: str, blender: bool = False) -> argparse.ArgumentParser:
+        return commands.add_parser(name, help=text, description=text, parents=[with_blender] if blender else [])
+
+    item = command("setup", "Install what building and rendering need, and is missing (apt).", blender=True)
+    item.add_argument("--test", action="store_true", help="also what `test` and `lint` need")
+    item = command("build", "Compile the engine; leaves build/bin/glimmer and build/lib/libglimmer.so.")
+    item.add_argument("--preset", default="release", choices=("release", "debug", "asan", "tsan"))
+    item = command("render", "Render a .blend with Glimmer in Blender; writes a PNG and an EXR.", blender=True)
+    item.add_argument(
+        "scene", nargs="?", type=Path, default=DEFAULT_SCENE, help="default: blend_scenes/glimmervoid.blend"
+    )
+    item.add_argument("-o", "--output", type=Path, metavar="STEM", help="without suffix (default: build/renders/SCENE)")
+    item.add_argument("--samples", type=int, metavar="N", help="samples per pixel, in place of the scene's")
+    item.add_argument("--resolution", type=int, metavar="PERCENT", help="of the scene's resolution, 1 to 100")
+    item.add_argument("--frame", type=int, metavar="N", help="in place of the scene's current frame")
+    item = command("test", "Run the test suite.", blender=True)
+    item.add_argument("--full", action="store_true", help="also the long tests, marked `full`")
+    item.add_argument("extra", nargs="*", metavar="-- ARGUMENT", help="handed to pytest, as in `test -- -k sphere`")
+    command("lint", "Check style, types and compiler warnings: ruff, mypy, clang-format, -Werror.")
+    command("package", "Make the add-on's zip, with the library inside; prints its path.")
+    command("clean", "Remove build/.")
+    return parser
+
+
+def positive(parser: argparse.ArgumentParser, name: str, value: int | None, most: int) -> None:
+    if value is not None and not 1 <= value <= most:
+        parser.error(f"--{name} {value}: must be from 1 to {most}")
+
+
+def main(argv: Sequence[str]) -> int:
+    parser = arguments()
+    given = parser.parse_args(argv)
+    try:
+        if given.command == "setup":
+            setup(given.blender, ("build", "render", "test") if given.test else ("build", "render"))
+        elif given.command == "build":
+            install_packages(wanted_packages(("build",), None))
+            build(given.preset)
+        elif given.command == "render":
+            positive(parser, "samples", given.samples, 1 << 30)
+            positive(parser, "resolution", given.resolution, 100)
+            output = given.output.absolute() if given.output else None
+            render(
+                given.blender,
+                RenderOptions(given.scene.absolute(), output, given.samples, given.resolution, given.frame),
+            )
+        elif given.command == "test":
+            test(given.blender, given.full, given.extra)
+        elif given.command == "lint":
+            lint()
+        elif given.command == "package":
+            package()
+        elif given.command == "clean":
+            clean()
+    except BuildError as error:
+        sys.stderr.write(f"build.py: {error}\n")
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
