@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The random numbers of one sample of one pixel.
+#pragma once
+
+#include "math/vec.h"
+#include "sampling/exponential.h"
+#include "sampling/hash.h"
+#include "sampling/sobol.h"
+
+#include <cstdint>
+
+namespace glimmer {
+
+/// Numbers depend on (seed, pixel, replicate, index) and on which call it is, on nothing else: no thread, tile or
+/// order. A value type of a few words; copy it to replay.
+///
+/// next_*: independent numbers from a counter, without end. stratified_*(set): the point `index` of an Owen-scrambled
+/// Sobol sequence of two dimensions; sets are scrambled and shuffled independently of each other (padded), and so are
+/// pixels and replicates. Within a pixel and replicate, indices 0, 1, 2, ... of a set are stratified against each
+/// other. A set is meant for one decision at one vertex of a path: never spread one set over different vertices. All
+/// floats are multiples of 2^-24 in [0, 1), never 1.
+class Sampler {
+  public:
+    Sampler(uint64_t seed, uint32_t pixel_x, uint32_t pixel_y, uint32_t replicate, uint32_t index)
+        : scramble_(hash64(seed, pixel_x, pixel_y, replicate)), stream_(hash64(scramble_, index)),
+          step_(mix64(stream_ ^ kGoldenRatio64) | 1), index_(index) {}
+
+    /// 64 independent bits.
+    uint64_t next_bits() { return mix64(stream_ + step_ * ++counter_); }
+    float next_1d() { return unit_float(static_cast<uint32_t>(next_bits() >> 32)); }
+    Vec2f next_2d() {
+        const uint64_t bits = next_bits();
+        return {unit_float(static_cast<uint32_t>(bits >> 32)), unit_float(static_cast<uint32_t>(bits))};
+    }
+    /// Unit-mean exponential variate, from 3e-20 to 45.
+    float next_exponential() { return exponential(next_bits()); }
+
+    float stratified_1d(uint32_t set) const { return unit_float(point(set).x); }
+    Vec2f stratified_2d(uint32_t set) const {
+        const SobolPoint p = point(set);
+        return {unit_float(p.x), unit_float(p.y)};
+    }
+    /// 64 bits of which the upper 32 are the set's first coordinate and the rest independent, for exponential variates.
+    uint64_t stratified_bits(uint32_t set) const {
+        return static_cast<uint64_t>(point(set).x) << 32 | (hash64(stream_, set) & 0xffffffffu);
+    }
+
+    uint32_t index() const { return index_; }
+
+  private:
+    SobolPoint point(uint32_t set) const { return owen_sobol(index_, hash64(scramble_, set, kSets)); }
+
+    static constexpr uint64_t kSets = 0x5e7; // keeps the keys of sets apart from those of streams
+    uint64_t scramble_, stream_, step_, counter_ = 0;
+    uint32_t index_;
+};
+
+} // namespace glimmer
