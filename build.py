@@ -189,7 +189,6 @@ def host_environment(profile: Path) -> dict[str, str]:
         "BLENDER_USER_RESOURCES": str(profile),
         "BLENDER_USER_CONFIG": str(profile / "config"),
         "BLENDER_USER_SCRIPTS": str(profile / "scripts"),
-        "GLIMMER_LIB_DIR": str(LIBRARY.parent),
     }
 
 
@@ -232,13 +231,13 @@ def render(blender: str | None, options: RenderOptions) -> None:
     for picture in pictures:
         picture.parent.mkdir(parents=True, exist_ok=True)
         picture.unlink(missing_ok=True)  # what stands there afterwards is this render's
-    arguments = ["--scene", options.scene, "--output", stem]
+    words: list[str | Path] = ["--scene", options.scene, "--output", stem]
     for name in ("samples", "resolution", "frame"):
         value = getattr(options, name)
         if value is not None:
-            arguments += [f"--{name}", str(value)]
+            words += [f"--{name}", str(value)]
     started = time.monotonic()
-    run([*host_command(executable, RENDER_SCRIPT), *arguments], env=host_environment(BUILD / "profile"))
+    run([*host_command(executable, RENDER_SCRIPT), *words], env=host_environment(BUILD / "profile"))
     for picture in pictures:
         if not picture.exists():
             raise BuildError(f"Blender ended without an error and without {picture}")
@@ -267,7 +266,7 @@ def lint() -> None:
     install_packages(wanted_packages(("build", "test"), None))
     python = virtual_environment("test")
     sources = sorted(path for suffix in ("cpp", "h", "c") for path in ENGINE.rglob(f"*.{suffix}"))
-    checks: tuple[list[str | Path], ...] = (
+    checks: tuple[Sequence[str | Path], ...] = (
         [python, "-m", "ruff", "check", ROOT],
         [python, "-m", "ruff", "format", "--check", ROOT],
         [python, "-m", "mypy", "build.py", "addon", "blend_scenes", "tests", "tools"],

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's zip: what is in it, and that it installs, renders and goes again in the hosts we support."""
+
+import ast
+import os
+import re
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import build
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# Runs inside Blender. argv: the zip, how to install it, the picture to write.
+INSTALL_AND_RENDER = """
+import sys
+import bpy
+
+zip_path, how, picture = sys.argv[sys.argv.index("--") + 1:]
+assert "glimmer" not in sys.modules
+if how == "extension":
+    # The repository's own folder lies in the isolated profile.
+    bpy.ops.extensions.package_install_files(filepath=zip_path, repo="user_default", enable_on_install=True)
+    name = "bl_ext.user_default.glimmer"
+else:
+    bpy.ops.preferences.addon_install(filepath=zip_path)
+    bpy.ops.preferences.addon_enable(module="glimmer")
+    name = "glimmer"
+assert name in bpy.context.preferences.addons, list(bpy.context.preferences.addons.keys())
+folder = sys.modules[name].__file__
+assert folder.startswith(PROFILE), folder
+scene = bpy.context.scene
+scene.render.engine = "GLIMMER"
+scene.glimmer.samples = 2
+scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 32, 18, 100
+bpy.ops.render.render()
+scene.render.image_settings.file_format = "PNG"
+bpy.data.images["Render Result"].save_render(picture, scene=scene)
+loaded = [line.split()[-1] for line in open("/proc/self/maps") if "libglimmer.so" in line]
+assert loaded and all(path.startswith(PROFILE) for path in loaded), loaded
+bpy.ops.preferences.addon_disable(module=name)
+assert not hasattr(bpy.types.Scene, "glimmer")
+"""
+
+
+@pytest.fixture(scope="session")
+def zip_path() -> Path:
+    build.build()
+    return build.package()
+
+
+def test_the_zip_holds_the_add_on_its_library_and_its_licence(zip_path: Path) -> None:
+    with zipfile.ZipFile(zip_path) as archive:
+        assert archive.testzip() is None
+        names = archive.namelist()
+        library = archive.read("glimmer/lib/libglimmer.so")
+    assert {"glimmer/__init__.py", "glimmer/blender_manifest.toml", "glimmer/LICENSE"} <= set(names)
+    assert all(name.startswith("glimmer/") for name in names)
+    assert not [name for name in names if "__pycache__" in name or name.endswith((".pyc", ".blend"))]
+    assert library == build.LIBRARY.read_bytes()
+
+
+def test_the_same_files_give_the_same_zip(zip_path: Path) -> None:
+    first = zip_path.read_bytes()
+    zip_path.unlink()
+    assert build.package().read_bytes() == first
+
+
+def test_the_version_is_the_same_everywhere() -> None:
+    tree = ast.parse((ROOT / "addon" / "__init__.py").read_text())
+    infos = [
+        node.value for node in tree.body if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "bl_info"
+    ]
+    bl_info = ast.literal_eval(infos[0])
+    cmake = re.search(r"project\(glimmer VERSION ([\d.]+)", (ROOT / "engine" / "CMakeLists.txt").read_text())
+    assert cmake is not None
+    assert cmake.group(1) == ".".join(map(str, bl_info["version"])) == build.addon_version()
+
+
+def install_and_render(command: list[str], zip_path: Path, how: str, folder: Path) -> None:
+    profile, picture, script = folder / "profile", folder / "picture.png", folder / "install.py"
+    (profile / "scripts" / "addons").mkdir(parents=True)
+    script.write_text(f"PROFILE = {str(profile)!r}\n{INSTALL_AND_RENDER}")
+    env = {key: value for key, value in os.environ.items() if not key.startswith("GLIMMER_")}
+    env["BLENDER_USER_RESOURCES"] = str(profile)
+    env["BLENDER_USER_CONFIG"] = str(profile / "config")
+    env["BLENDER_USER_SCRIPTS"] = str(profile / "scripts")
+    result = subprocess.run(
+        [*command, str(script), "--", str(zip_path), how, str(picture)],
+        env=env,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=180,
+    )
+    assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_installs_as_an_add_on_in_blender(zip_path: Path, blender: Path, tmp_path: Path) -> None:
+    command = [str(blender), "-b", "--factory-startup", "--python-exit-code", "1", "--python"]
+    install_and_render(command, zip_path, "addon", tmp_path)
+
+
+@pytest.mark.parametrize("how", ["addon", "extension"])
+def test_installs_in_the_bpy_module(zip_path: Path, bpy_python: Path, tmp_path: Path, how: str) -> None:
+    install_and_render([str(bpy_python)], zip_path, how, tmp_path)
