@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the README tells people to type works."""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import build
+
+ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / "README.md").read_text()
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+
+
+def commands() -> list[list[str]]:
+    lines = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
+    return [words for line in lines if (words := shlex.split(line, comments=True))]
+
+
+def commands_of(program: str) -> list[list[str]]:
+    return [words for words in commands() if words[0] == program]
+
+
+def test_the_first_screen_has_exactly_the_two_commands() -> None:
+    language, text = BLOCKS[0]
+    assert language == "sh"
+    assert README[: README.index(text)].count("\n") < 20
+    assert [shlex.split(line, comments=True) for line in text.splitlines()] == [
+        ["python3", "build.py", "render"],
+        ["python3", "build.py", "test"],
+    ]
+
+
+def test_every_command_is_of_a_kind_that_a_test_here_tries() -> None:
+    assert {words[0] for words in commands()} == {"python3", "build/bin/glimmer", "blender"}
+
+
+@pytest.mark.parametrize("words", commands_of("python3"), ids=shlex.join)
+def test_build_py_takes_the_arguments(words: list[str]) -> None:
+    assert words[1] == "build.py"
+    build.arguments().parse_args(words[2:])
+
+
+@pytest.mark.parametrize("words", commands_of("build/bin/glimmer"), ids=shlex.join)
+def test_the_command_line_does_what_it_says(words: list[str], glimmer_command: Path, tmp_path: Path) -> None:
+    arguments = [str(ROOT / word) if word.startswith("engine/") else word for word in words[1:]]
+    command = [str(glimmer_command), *arguments]
+    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=280)
+    assert result.returncode == 0, result.stderr
+    for option in ("-o", "--report", "--curve"):
+        if option in words:
+            assert (tmp_path / words[words.index(option) + 1]).stat().st_size > 0
+
+
+@pytest.mark.parametrize("words", commands_of("blender"), ids=shlex.join)
+def test_blender_renders_headless(words: list[str], blender: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "frame_"
+    smaller = "import bpy; s = bpy.context.scene; s.render.resolution_percentage = 5; s.glimmer.samples = 1"
+    changed = [f"{picture}####" if word.startswith("//") else word for word in words[1:]]
+    changed = [str(ROOT / word) if word.startswith("blend_scenes/") else word for word in changed]
+    assert changed[-2:] == ["-f", "1"]
+    command = [str(blender), *changed[:-2], "--python-exit-code", "1", "--python-expr", smaller, *changed[-2:]]
+    env = build.host_environment(tmp_path / "profile")
+    result = subprocess.run(command, env=env, capture_output=True, text=True, check=False, timeout=280)
+    assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
+    assert (tmp_path / "frame_0001.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_python_example_runs(library_dir: Path) -> None:
+    examples = [text for language, text in BLOCKS if language == "python"]
+    assert len(examples) == 1
+    env = {**os.environ, "GLIMMER_LIBRARY": str(library_dir / "libglimmer.so")}
+    command = [sys.executable, "-c", examples[0]]
+    result = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, check=False, timeout=60)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.strip()
+
+
+def test_every_file_that_is_named_exists() -> None:
+    links = re.findall(r"\]\(([^)#:]+)\)", README)
+    paths = re.findall(r"`((?:engine|addon|blend_scenes|tests|\.ci)/[\w./]*)`", README)
+    assert links and paths
+    assert [path for path in [*links, *paths] if not (ROOT / path).exists()] == []
