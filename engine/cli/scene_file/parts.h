@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of a scene file, one function and one source file each. All read what stands at a value, check it, and hand
+// it to the engine's scene; they throw InputError with the place of what is wrong.
+#pragma once
+
+#include "handles.h"
+#include "scene_file.h"
+#include "scene_folder.h"
+#include "value.h"
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace glimmer {
+
+/// The materials by name; the engine numbers them in the order of the file, parts of a mix before the mix.
+struct Materials {
+    std::vector<std::string> names;
+    std::unordered_map<std::string, uint32_t> indices;
+
+    /// The material that a value names, or the error that lists them.
+    uint32_t find(const Value &name) const;
+};
+
+struct Mesh {
+    MeshHandle handle;
+    size_t slot_count = 1; ///< 1 + the highest slot of its triangles
+    bool used = false;
+};
+
+struct Meshes {
+    std::vector<std::string> names;
+    std::unordered_map<std::string, Mesh> entries;
+
+    Mesh &find(const Value &name);
+};
+
+Film read_film(const Value &film, glimmer_scene *scene);
+void read_camera(const Value &camera, glimmer_scene *scene);
+Materials read_materials(const Value &materials, glimmer_scene *scene);
+Meshes read_meshes(const Value &meshes, SceneFolder &folder);
+void read_object(const Value &object, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
+                 SceneFolder &folder);
+void read_spheres(const Value &spheres, glimmer_scene *scene, const Materials &materials, SceneFolder &folder);
+void read_light(const Value &light, glimmer_scene *scene);
+void read_environment(const Value &environment, glimmer_scene *scene, SceneFolder &folder);
+void read_medium(const Value &medium, glimmer_scene *scene);
+DepthLimits read_depth_limits(const Value &render);
+
+/// The matrix at a key, or the identity.
+Matrix matrix_or_identity(const Value &value, std::string_view key);
+
+} // namespace glimmer
