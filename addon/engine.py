@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's side of a render: `update` reads the scene, `render` hands pixels over. Neither does more than that.
+
+Blender calls both once for every view layer, on one instance. An exception out of either crashes Blender where no
+result was begun, so nothing escapes from here.
+"""
+
+import traceback
+from typing import Any
+
+import bpy
+
+from . import failure, jobs
+from .film import passes
+from .scene.problems import GlimmerError
+
+
+class GlimmerRenderEngine(bpy.types.RenderEngine):
+    bl_idname = "GLIMMER"
+    bl_label = "Glimmer"
+    bl_use_preview = True
+    bl_use_postprocess = True
+    bl_use_shading_nodes_custom = False  # Cycles' nodes are ours, and stay editable
+    bl_use_eevee_viewport = True
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._job: jobs.Job | None = None
+        self._failure = ""
+
+    def update(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
+        """Reads everything: only here is the scene safe from the user's hands."""
+        self._job, self._failure = None, ""
+        try:
+            self._job = jobs.prepare(self, depsgraph)
+        except Exception as error:  # noqa: BLE001 - see above
+            self._failure = _describe(error)
+
+    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        if self._job is not None:
+            try:
+                self._job.run(self)
+            except Exception as error:  # noqa: BLE001 - see above
+                self._failure = _describe(error)
+            self._job = None
+        if self._failure:
+            jobs.begin_and_end_result(self)
+            failure.fail(self, self._failure)
+
+    def update_render_passes(
+        self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
+    ) -> None:
+        for item in passes.enabled(renderlayer):
+            self.register_pass(scene, renderlayer, item.blender_name, len(item.channels), item.channels, item.kind)
+
+
+def _describe(error: Exception) -> str:
+    """One line for the user. A defect of ours leaves its trace in the log too."""
+    if isinstance(error, GlimmerError):
+        return str(error)
+    traceback.print_exception(error)
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return (
+        f"a defect of the add-on, please report it: {type(error).__name__}: {error} ({last.name}, line {last.lineno})"
+    )
+
+
+def register() -> None:
+    bpy.utils.register_class(GlimmerRenderEngine)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(GlimmerRenderEngine)

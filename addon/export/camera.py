@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's camera object -> Camera."""
+
+from __future__ import annotations
+
+from math import atan, degrees
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..scene.description import Camera, Floats
+from ..scene.problems import GlimmerError, Notices, place
+
+if TYPE_CHECKING:
+    import bpy
+
+
+def projection(
+    lens: float, sensor: tuple[float, float], fit: str, shift: tuple[float, float], size: tuple[int, int]
+) -> tuple[float, tuple[float, float]]:
+    """Horizontal angle in degrees, and the shift in widths, of a picture of size (width, height) with square pixels.
+
+    Blender measures both on the side that the sensor is fitted to: AUTO is the longer one with the sensor's width.
+    """
+    width, height = size
+    horizontal = fit == "HORIZONTAL" or (fit == "AUTO" and width >= height)
+    fitted = sensor[1] if fit == "VERTICAL" else sensor[0]
+    in_widths = 1.0 if horizontal else height / width
+    return degrees(2.0 * atan(0.5 * fitted / lens / in_widths)), (shift[0] * in_widths, shift[1] * in_widths)
+
+
+def rigid(matrix: Floats) -> Floats:
+    """The nearest matrix of rotation and translation: a camera's scale says nothing about what it sees."""
+    result = np.eye(4)
+    u, _, vt = np.linalg.svd(matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0))
+    rotation = u @ vt
+    if np.linalg.det(rotation) < 0:
+        rotation = rotation * [-1.0, 1.0, 1.0]
+    result[:3, :3] = rotation
+    result[:3, 3] = matrix[:3, 3]
+    return result
+
+
+def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int], notices: Notices) -> Camera:
+    """size: (width, height) of the whole picture in pixels."""
+    if camera_object is None or camera_object.type != "CAMERA":
+        raise GlimmerError("The scene has no camera: add one, or set it under Scene properties > Scene > Camera")
+    data: bpy.types.Camera = camera_object.data
+    where = place(camera_object.name)
+    if data.type != "PERSP":
+        kind = {"ORTHO": "orthographic", "PANO": "panoramic"}.get(data.type, data.type.lower())
+        raise GlimmerError(f"Camera '{camera_object.name}' is {kind}, which is not supported yet; allowed: perspective")
+    to_world: Floats = np.array(camera_object.matrix_world, np.float64)
+    if not np.isfinite(to_world).all() or not np.linalg.norm(to_world[:3, :3], axis=0).all():
+        raise GlimmerError(f"Camera '{camera_object.name}' has a scale of 0 or a matrix that is not finite")
+    to_world = rigid(to_world)
+    sensor = (data.sensor_width, data.sensor_height)
+    fov_x, shift = projection(data.lens, sensor, data.sensor_fit, (data.shift_x, data.shift_y), size)
+    lens_radius, focus_distance = _depth_of_field(data, to_world, where, notices)
+    return Camera(
+        to_world=to_world,
+        fov_x=fov_x,
+        shift=shift,
+        lens_radius=lens_radius,
+        focus_distance=focus_distance,
+        clip_start=data.clip_start,
+        clip_end=data.clip_end,
+    )
+
+
+def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notices: Notices) -> tuple[float, float]:
+    """Lens radius, and the distance in focus along the axis."""
+    dof = data.dof
+    if not dof.use_dof or dof.aperture_fstop <= 0.0:
+        return 0.0, 1.0
+    if dof.aperture_blades > 2 or dof.aperture_ratio != 1.0:
+        notices.add(where, "aperture blades and ratio are not supported; the aperture is round")
+    distance = dof.focus_distance
+    if dof.focus_object is not None:
+        target = np.array(dof.focus_object.matrix_world.translation, np.float64)
+        distance = abs(float(np.dot(target - to_world[:3, 3], to_world[:3, 2])))
+    # The lens is in millimetres whatever the scene's unit, and the f-number divides its diameter.
+    return 0.5e-3 * data.lens / dof.aperture_fstop, max(distance, 1e-5)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's output size, border and Glimmer's render settings -> Film and RenderSettings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..film.passes import RenderPass
+from ..scene.description import Film, RenderSettings
+from ..scene.problems import GlimmerError, Notices
+
+if TYPE_CHECKING:
+    import bpy
+
+# A material preview is small and must come at once.
+PREVIEW_SAMPLES = 32
+PREVIEW_SECONDS = 2.0
+
+
+def full_size(render: bpy.types.RenderSettings) -> tuple[int, int]:
+    """(width, height) of the whole picture, in Blender's own integer arithmetic."""
+    scale = render.resolution_percentage
+    return max(render.resolution_x * scale // 100, 1), max(render.resolution_y * scale // 100, 1)
+
+
+def border_window(size: tuple[int, int], border: tuple[float, float, float, float]) -> tuple[int, int, int, int]:
+    """x0, y0, x1, y1 from the top left of a border (min_x, min_y, max_x, max_y), 0 to 1 from the bottom left.
+
+    Blender multiplies in float32 and cuts off; another rounding gives a result of another size than it expects.
+    """
+    width, height = size
+    x0, x1 = (int(np.float32(edge) * np.float32(width)) for edge in (border[0], border[2]))
+    y0, y1 = (int(np.float32(edge) * np.float32(height)) for edge in (border[1], border[3]))
+    return x0, height - y1, x1, height - y0
+
+
+def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
+    render = scene.render
+    if render.pixel_aspect_x != render.pixel_aspect_y:
+        raise GlimmerError(
+            f"Pixels of aspect {render.pixel_aspect_x:g} : {render.pixel_aspect_y:g} are not supported; set both under"
+            " Output properties > Format > Aspect to 1"
+        )
+    if render.film_transparent:
+        notices.add("", "Film > Transparent is not supported; the background is opaque")
+    if render.use_motion_blur:
+        notices.add("", "motion blur is not supported; everything stands still")
+    if render.use_multiview:
+        notices.add("", "stereoscopy is not supported; every view is the camera's own")
+    size = full_size(render)
+    crop = None
+    if render.use_border:
+        edges = (render.border_min_x, render.border_min_y, render.border_max_x, render.border_max_y)
+        crop = border_window(size, edges)
+        if crop[2] <= crop[0] or crop[3] <= crop[1]:
+            raise GlimmerError("The render border holds no pixel: make it larger, or clear it with Ctrl Alt B")
+    settings = scene.glimmer
+    return Film(*size, crop=crop, filter=settings.filter.lower(), filter_width=settings.filter_width)
+
+
+def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_preview: bool = False) -> RenderSettings:
+    settings = scene.glimmer
+    names = tuple(item.engine_name for item in passes)
+    if is_preview:
+        return RenderSettings(samples=PREVIEW_SAMPLES, seconds=PREVIEW_SECONDS, passes=names)
+    seed = settings.seed
+    if settings.use_seed_per_frame:
+        # Frames far apart in numbers, so that the seeds of two scenes do not meet by counting up.
+        seed += (scene.frame_current % 2**32) << 32
+    render = scene.render
+    return RenderSettings(
+        integrator=settings.integrator or None,
+        samples=settings.samples if settings.use_samples else 0,
+        seconds=settings.seconds if settings.use_seconds else 0.0,
+        target_error=settings.target_error if settings.use_target_error else 0.0,
+        seed=seed,
+        threads=render.threads if render.threads_mode == "FIXED" else 0,
+        tile_size=settings.tile_size,
+        max_depth=settings.max_depth if settings.use_max_depth else None,
+        max_scatter=settings.max_scatter if settings.use_max_scatter else None,
+        passes=names,
+    )

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's lamps -> the engine's, in the units of Cycles (which differ between its versions)."""
+
+from __future__ import annotations
+
+from math import degrees, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..scene.description import AreaLight, Floats, Lamp, PointLight, Rgb, SpotLight, SunLight
+from ..scene.problems import Notices, place
+from .camera import rigid
+from .nodes import Nodes, scaled
+
+if TYPE_CHECKING:
+    import bpy
+
+Version = tuple[int, ...]
+
+
+def point_intensity(power: float) -> float:
+    """W/sr of a point or spot of a power in W; a spot's cone cuts it and does not concentrate it. All versions."""
+    return power / (4.0 * pi)
+
+
+def area_radiance(power: float, area: float, version: Version) -> float:
+    """W/(m^2 sr) of an area lamp of a power in W: a Lambertian emitter from 4.2, its old unit of P/4 before."""
+    return power / (pi * area) if version >= (4, 2) else power / (4.0 * area)
+
+
+def sun_irradiance(strength: float) -> float:
+    """W/m^2 at normal incidence. All versions."""
+    return strength
+
+
+def ellipse_or_rectangle_area(size: tuple[float, float], ellipse: bool) -> float:
+    return size[0] * size[1] * (pi / 4.0 if ellipse else 1.0)
+
+
+def export_lamp(item: bpy.types.Object, matrix: Floats, version: Version, notices: Notices) -> Lamp | None:
+    """The lamp of an evaluated object at a matrix (4, 4); None where it gives no light."""
+    data = item.data
+    where = place(item.name)
+    color = _color(data, where, notices)
+    power = data.energy * 2.0 ** getattr(data, "exposure", 0.0)
+    _note_differences(data, where, notices)
+    if power <= 0.0 or not any(color):
+        if power < 0.0:
+            notices.add(where, "a lamp of negative power gives no light")
+        return None
+    direction = tuple(float(v) for v in -matrix[:3, 2])
+    position = (float(matrix[0, 3]), float(matrix[1, 3]), float(matrix[2, 3]))
+    if data.type == "SUN":
+        irradiance = scaled(color, sun_irradiance(power))
+        return SunLight(item.name, (direction[0], direction[1], direction[2]), irradiance, degrees(data.angle))
+    if data.type == "AREA":
+        return _area(item.name, data, matrix, color, power, version)
+    if not getattr(data, "normalize", True):
+        # The power is then that of one square metre of the sphere.
+        power *= 4.0 * pi * data.shadow_soft_size**2 if data.shadow_soft_size > 0.0 else 1.0
+    intensity = scaled(color, point_intensity(power))
+    radius = data.shadow_soft_size
+    if data.type == "SPOT":
+        axis = (direction[0], direction[1], direction[2])
+        return SpotLight(item.name, position, axis, intensity, degrees(data.spot_size), data.spot_blend, radius)
+    return PointLight(item.name, position, intensity, radius)
+
+
+def _area(
+    name: str, data: bpy.types.AreaLight, matrix: Floats, color: Rgb, power: float, version: Version
+) -> AreaLight | None:
+    scale = np.linalg.norm(matrix[:3, :2], axis=0)
+    both = data.shape in ("RECTANGLE", "ELLIPSE")
+    size = (float(data.size * scale[0]), float((data.size_y if both else data.size) * scale[1]))
+    ellipse = data.shape in ("DISK", "ELLIPSE")
+    area = ellipse_or_rectangle_area(size, ellipse)
+    if area <= 0.0:
+        return None
+    radiance = area_radiance(power, area if getattr(data, "normalize", True) else 1.0, version)
+    return AreaLight(name, rigid(matrix), size, scaled(color, radiance), ellipse)
+
+
+def _color(data: bpy.types.Light, where: str, notices: Notices) -> Rgb:
+    color: Rgb = (data.color[0], data.color[1], data.color[2])
+    if getattr(data, "use_temperature", False):
+        color = tuple(a * b for a, b in zip(color, data.temperature_color, strict=True))
+    if data.use_nodes and data.node_tree is not None:
+        radiance = Nodes(data.node_tree, where, notices).lamp_emission()
+        color = (color[0] * radiance[0], color[1] * radiance[1], color[2] * radiance[2])
+    return color
+
+
+def _note_differences(data: bpy.types.Light, where: str, notices: Notices) -> None:
+    if data.type == "SPOT" and data.use_square:
+        notices.add(where, "a square spot is not supported; it is round")
+    if data.type == "AREA" and data.spread < pi - 1e-4:
+        notices.add(where, "the spread of an area lamp is not supported; it shines in all directions of its front")
+    if not data.use_shadow:
+        notices.add(where, "a lamp without shadows is not supported; it casts them")

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's material nodes -> the engine's materials.
+
+What the engine cannot do is replaced by the closest thing that it can, and a notice names the object, the material and
+the node. Nothing turns black or vanishes for that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..scene.description import (
+    BLACK,
+    Conductor,
+    Glass,
+    Lambert,
+    Light,
+    Material,
+    Mirror,
+    NamedMaterial,
+    Null,
+    Rgb,
+    Surface,
+)
+from ..scene.problems import Notices, place
+from .color import luminance
+from .combine import add, mix
+from .nodes import Input, Nodes, Source, scaled
+from .principled import principled
+
+if TYPE_CHECKING:
+    import bpy
+
+# Below this the engine's GGX is a mirror; its mirror keeps the colour at every angle, as Blender's does.
+MIRROR_ALPHA = 1e-4
+
+# What an object without a material shows, here and in Cycles.
+DEFAULT_SURFACE = Lambert((0.8, 0.8, 0.8))
+
+
+def export_material(material: bpy.types.Material | None, object_name: str, notices: Notices) -> NamedMaterial:
+    """object_name: the first object that uses it, for notices."""
+    if material is None:
+        return NamedMaterial("default", DEFAULT_SURFACE)
+    where = place(object_name, material.name)
+    if not material.use_nodes or material.node_tree is None:
+        return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
+    result = _Shaders(material, where, notices).output()
+    return NamedMaterial(material.name_full, result, material.pass_index)
+
+
+def viewport_surface(material: bpy.types.Material) -> Surface:
+    """The material without nodes."""
+    color = _rgb(material.diffuse_color)
+    if material.metallic > 0.5:
+        return Conductor(alpha=material.roughness**2, f0=_clipped(color))
+    return Lambert(_clipped(color))
+
+
+def _rgb(color: Any) -> Rgb:
+    return (float(color[0]), float(color[1]), float(color[2]))
+
+
+def _clipped(color: Rgb) -> Rgb:
+    return (min(max(color[0], 0.0), 1.0), min(max(color[1], 0.0), 1.0), min(max(color[2], 0.0), 1.0))
+
+
+class _Shaders:
+    """The shader nodes of one material."""
+
+    def __init__(self, material: bpy.types.Material, where: str, notices: Notices) -> None:
+        self.nodes = Nodes(material.node_tree, where, notices)
+        self.viewport_color = _rgb(material.diffuse_color)
+        self.where = where
+        self.notices = notices
+
+    def output(self) -> Material:
+        surface = self.nodes.surface_of_output()
+        if surface is None:
+            self.notices.add(self.where, "has no output node; its viewport colour is used")
+            return Lambert(_clipped(self.viewport_color))
+        self._note_other_outputs()
+        if self.nodes.source(surface) is None:
+            volume = self.nodes.surface_of_output("Volume")
+            if volume is not None and self.nodes.source(volume) is not None:
+                return Null()
+            self.notices.add(self.where, "has no surface shader; it is black, as in Cycles")
+            return Lambert(BLACK)
+        return self.shader(surface)
+
+    def _note_other_outputs(self) -> None:
+        for name, what in (
+            ("Volume", "a volume inside an object is not supported; its surface alone is rendered"),
+            ("Displacement", "displacement is not supported; the surface is rendered as modelled"),
+        ):
+            item = self.nodes.surface_of_output(name)
+            if item is not None and self.nodes.source(item) is not None:
+                self.notices.add(self.where, what)
+
+    def shader(self, item: Input) -> Material:
+        source = self.nodes.source(item)
+        if source is None or source.node is None:
+            return Light(BLACK)  # an empty socket adds no light and takes all of it
+        translate = _SHADERS.get(source.node.bl_idname)
+        if translate is None:
+            return self._unknown(source)
+        if self.nodes.is_linked(source.node, "Normal"):
+            self.nodes.notice(source.node, "bump and normal maps are not supported; the surface is rendered smooth")
+        return translate(self, source)
+
+    def _unknown(self, source: Source) -> Material:
+        node = source.node
+        color = _clipped(self.viewport_color)
+        words = "the material's viewport colour"
+        if node.inputs.get("Color") is not None:
+            color, words = self.albedo(source), "a diffuse surface of its colour"
+        shown = ", ".join(f"{v:.3g}" for v in color)
+        self.nodes.notice(node, f"shader {node.bl_label} is not supported; {words} ({shown}) is used in its place")
+        return Lambert(color)
+
+    # ---- Inputs ----
+
+    def color(self, source: Source, *names: str) -> Rgb:
+        return self.nodes.color(source.node, source.groups, names, self.viewport_color)
+
+    def albedo(self, source: Source, *names: str) -> Rgb:
+        color = self.color(source, *(names or ("Color",)))
+        if max(color) > 1.0:
+            self.nodes.notice(source.node, f"reflects more light than it receives ({max(color):.3g}); cut to 1")
+        return _clipped(color)
+
+    def number(self, source: Source, *names: str, default: float = 0.0) -> float:
+        return self.nodes.number(source.node, source.groups, *names, default=default)
+
+    def tell(self, source: Source) -> Callable[[str], None]:
+        return lambda what: self.nodes.notice(source.node, what)
+
+    # ---- Shaders ----
+
+    def emission(self, source: Source) -> Material:
+        # A colour that varies must not lend a lamp the grey of the viewport: the socket's own colour is closer.
+        color = self.nodes.color(source.node, source.groups, ("Color",))
+        radiance = scaled(color, self.number(source, "Strength"))
+        if min(radiance) < 0.0:
+            self.nodes.notice(source.node, "negative light is not supported; it is cut to 0")
+        return Light((max(radiance[0], 0.0), max(radiance[1], 0.0), max(radiance[2], 0.0)))
+
+    def diffuse(self, source: Source) -> Material:
+        if self.number(source, "Roughness") > 0.0:
+            self.nodes.notice(source.node, "a rough diffuse surface (Oren-Nayar) is not supported; it is Lambert's")
+        return Lambert(self.albedo(source))
+
+    def glossy(self, source: Source) -> Material:
+        color, alpha = self.albedo(source), self._alpha(source)
+        if alpha < MIRROR_ALPHA:
+            return Mirror(color)
+        return Conductor(alpha=alpha, f0=color)
+
+    def metallic(self, source: Source) -> Material:
+        alpha = self._alpha(source)
+        if source.node.fresnel_type == "PHYSICAL_CONDUCTOR":
+            eta, k = self.color(source, "IOR"), self.color(source, "Extinction")
+            return Conductor(alpha=alpha, eta=(max(eta[0], 1e-3), max(eta[1], 1e-3), max(eta[2], 1e-3)), k=k)
+        self.nodes.notice(source.node, "edge tint is not supported; Schlick's curve from the base colour is used")
+        return Conductor(alpha=alpha, f0=self.albedo(source, "Base Color"))
+
+    def _alpha(self, source: Source) -> float:
+        node = source.node
+        if getattr(node, "distribution", "GGX") == "SHARP":
+            return 0.0
+        if node.distribution in ("BECKMANN", "ASHIKHMIN_SHIRLEY"):
+            self.nodes.notice(node, f"the distribution {node.distribution.title()} is not supported; it is GGX")
+        elif node.distribution == "MULTI_GGX":
+            self.nodes.notice(
+                node, "multiple scattering between microfacets is left out; rough metal is a little darker"
+            )
+        if self.number(source, "Anisotropy") != 0.0:
+            self.nodes.notice(node, "anisotropy is not supported; the reflection is round")
+        return min(max(self.number(source, "Roughness"), 0.0), 1.0) ** 2
+
+    def glass(self, source: Source) -> Material:
+        node = source.node
+        if node.bl_idname == "ShaderNodeBsdfRefraction":
+            self.nodes.notice(node, "refraction alone is not supported; it is glass, which also reflects")
+        if getattr(node, "distribution", "SHARP") != "SHARP" and self.number(source, "Roughness") > 0.0:
+            self.nodes.notice(node, "rough glass is not supported; it is smooth")
+        if min(self.color(source, "Color")) < 0.999:
+            self.nodes.notice(node, "coloured glass is not supported; it is clear")
+        return Glass(max(self.number(source, "IOR"), 1e-3))
+
+    def transparent(self, source: Source) -> Material:
+        if luminance(self.color(source, "Color")) < 0.999:
+            self.nodes.notice(source.node, "coloured transparency is not supported; it is clear")
+        return Null()
+
+    def principled(self, source: Source) -> Material:
+        return principled(self, source)
+
+    def mix(self, source: Source) -> Material:
+        inputs = source.node.inputs
+        factor = self.number(source, inputs[0].name)
+        first, second = (Input(inputs[i], source.groups) for i in (1, 2))
+        if factor <= 0.0:
+            return self.shader(first)
+        if factor >= 1.0:
+            return self.shader(second)
+        return mix(factor, self.shader(first), self.shader(second), self.tell(source))
+
+    def add(self, source: Source) -> Material:
+        first, second = (self.shader(Input(source.node.inputs[i], source.groups)) for i in (0, 1))
+        return add(first, second, self.tell(source))
+
+
+_SHADERS: dict[str, Callable[[_Shaders, Source], Material]] = {
+    "ShaderNodeEmission": _Shaders.emission,
+    "ShaderNodeBsdfDiffuse": _Shaders.diffuse,
+    "ShaderNodeBsdfGlossy": _Shaders.glossy,
+    "ShaderNodeBsdfAnisotropic": _Shaders.glossy,
+    "ShaderNodeBsdfMetallic": _Shaders.metallic,
+    "ShaderNodeBsdfGlass": _Shaders.glass,
+    "ShaderNodeBsdfRefraction": _Shaders.glass,
+    "ShaderNodeBsdfTransparent": _Shaders.transparent,
+    "ShaderNodeBsdfPrincipled": _Shaders.principled,
+    "ShaderNodeMixShader": _Shaders.mix,
+    "ShaderNodeAddShader": _Shaders.add,
+}

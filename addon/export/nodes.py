@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads node trees: follows links through groups, reroutes and muted nodes, and folds what is constant.
+
+The engine's materials are constant over a surface. What is not (a texture, a mask) is replaced by the closest constant,
+and a notice says which.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..scene.description import Rgb
+from ..scene.problems import Notices
+from .color import blackbody, luminance, mean_fresnel, srgb_to_linear
+
+if TYPE_CHECKING:
+    import bpy
+
+Value = tuple[float, ...]  # (v,) or (r, g, b)
+
+
+def scaled(color: Rgb, factor: float) -> Rgb:
+    return (color[0] * factor, color[1] * factor, color[2] * factor)
+
+
+def lerp(a: Rgb, b: Rgb, t: float) -> Rgb:
+    return (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t)
+
+
+def as_color(value: Value) -> Rgb:
+    return (value[0], value[0], value[0]) if len(value) == 1 else (value[0], value[1], value[2])
+
+
+def as_number(value: Value) -> float:
+    return value[0] if len(value) == 1 else luminance(as_color(value))
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where the value of an input comes from: the output of a node, within the groups that were entered."""
+
+    node: Any
+    output: Any
+    groups: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Input:
+    """An input socket within the groups that were entered."""
+
+    socket: Any
+    groups: tuple[Any, ...] = ()
+
+
+class NotConstantError(Exception):
+    """A value that varies over a surface or a direction."""
+
+
+def find_input(node: Any, *names: str) -> Any:
+    """The first of a node's inputs of these names: a name may change between versions of Blender."""
+    for name in names:
+        socket = node.inputs.get(name)
+        if socket is not None:
+            return socket
+    return None
+
+
+class Nodes:
+    """A node tree, and where to put notices about it."""
+
+    def __init__(self, tree: bpy.types.NodeTree, where: str, notices: Notices) -> None:
+        self.tree = tree
+        self.where = where
+        self.notices = notices
+
+    def notice(self, node: Any, what: str) -> None:
+        label = f"node '{node.name}'"
+        self.notices.add(f"{self.where}, {label}" if self.where else label, what)
+
+    # ---- Links ----
+
+    def surface_of_output(self, name: str = "Surface") -> Input | None:
+        """An input of the active output node; None where the tree has no output."""
+        output = self.tree.get_output_node("CYCLES")
+        socket = None if output is None else output.inputs.get(name)
+        return None if socket is None else Input(socket)
+
+    def source(self, item: Input) -> Source | None:
+        """Follows an input to the node that makes its value; None if nothing is linked."""
+        socket, groups = item.socket, item.groups
+        for _ in range(1000):  # a tree that a file holds may have cycles
+            links = [link for link in socket.links if link.is_valid and not getattr(link, "is_muted", False)]
+            if not links:
+                return None
+            node, output = links[0].from_node, links[0].from_socket
+            if node.mute:
+                inner = [link for link in node.internal_links if link.to_socket == output]
+                if not inner:
+                    return None
+                socket = inner[0].from_socket
+            elif node.bl_idname == "NodeReroute":
+                socket = node.inputs[0]
+            elif node.bl_idname == "NodeGroupInput":
+                if not groups:
+                    return None
+                socket, groups = self._matching(groups[-1].inputs, node.outputs, output), groups[:-1]
+                if not socket.is_linked:
+                    return None if socket.type == "SHADER" else Source(None, socket, groups)
+            elif node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
+                inside = [n for n in node.node_tree.nodes if n.bl_idname == "NodeGroupOutput" and n.is_active_output]
+                if not inside:
+                    return None
+                socket, groups = self._matching(inside[0].inputs, node.outputs, output), (*groups, node)
+                if not socket.is_linked:
+                    return None if socket.type == "SHADER" else Source(None, socket, groups)
+            else:
+                return Source(node, output, groups)
+        return None
+
+    @staticmethod
+    def _matching(sockets: Any, others: Any, wanted: Any) -> Any:
+        """The socket on this side of a group that belongs to one on the other side: they have one order."""
+        return sockets[[other.identifier for other in others].index(wanted.identifier)]
+
+    # ---- Constants ----
+
+    def value(self, item: Input) -> Value:
+        """Raises NotConstantError."""
+        source = self.source(item)
+        if source is None:
+            return _default(item.socket)
+        if source.node is None:
+            return _default(source.output)
+        fold = _FOLDS.get(source.node.bl_idname)
+        if fold is None:
+            raise NotConstantError(source.node)
+        return fold(self, source)
+
+    def color(self, node: Any, groups: tuple[Any, ...], names: tuple[str, ...], fallback: Rgb | None = None) -> Rgb:
+        """A colour input by name; what varies becomes the fallback, or else the socket's own value."""
+        socket = find_input(node, *names)
+        if socket is None:
+            return fallback or (0.0, 0.0, 0.0)
+        try:
+            return as_color(self.value(Input(socket, groups)))
+        except NotConstantError as error:
+            own = as_color(_default(socket)) if fallback is None else fallback
+            shown = ", ".join(f"{v:.3g}" for v in own)
+            what = "the material's viewport colour" if fallback is not None else "the socket's own value"
+            self.notice(error.args[0], f"cannot be rendered; {socket.name} uses {what} ({shown}) in its place")
+            return own
+
+    def number(self, node: Any, groups: tuple[Any, ...], *names: str, default: float = 0.0) -> float:
+        """A number input by name."""
+        socket = find_input(node, *names)
+        if socket is None:
+            return default
+        try:
+            return as_number(self.value(Input(socket, groups)))
+        except NotConstantError as error:
+            own = as_number(_default(socket))
+            what = f"cannot be rendered; {socket.name} uses the socket's own value ({own:.3g}) in its place"
+            self.notice(error.args[0], what)
+            return own
+
+    def is_linked(self, node: Any, *names: str) -> bool:
+        socket = find_input(node, *names)
+        return socket is not None and socket.is_linked
+
+    def lamp_emission(self) -> Rgb:
+        """What the nodes of a lamp multiply its light by."""
+        surface = self.surface_of_output()
+        source = None if surface is None else self.source(surface)
+        if source is None or source.node is None:
+            return (0.0, 0.0, 0.0)
+        if source.node.bl_idname != "ShaderNodeEmission":
+            self.notice(source.node, "cannot be rendered in a lamp; the lamp's own colour and power are used")
+            return (1.0, 1.0, 1.0)
+        color = self.color(source.node, source.groups, ("Color",))
+        return scaled(color, self.number(source.node, source.groups, "Strength"))
+
+
+def _default(socket: Any) -> Value:
+    value = getattr(socket, "default_value", 0.0)
+    if isinstance(value, (int, float)):
+        return (float(value),)
+    return tuple(float(v) for v in value[:3])
+
+
+# ---- Nodes whose value is known without a surface ------------------------------------------------------------------
+
+
+def _input(nodes: Nodes, source: Source, index: int) -> Value:
+    return nodes.value(Input(source.node.inputs[index], source.groups))
+
+
+def _own_value(nodes: Nodes, source: Source) -> Value:
+    return _default(source.output)
+
+
+def _blackbody(nodes: Nodes, source: Source) -> Value:
+    return blackbody(as_number(_input(nodes, source, 0)))
+
+
+def _combine(nodes: Nodes, source: Source) -> Value:
+    if getattr(source.node, "mode", "RGB") != "RGB":
+        raise NotConstantError(source.node)
+    return tuple(as_number(_input(nodes, source, i)) for i in range(3))
+
+
+_BINARY: dict[str, Callable[[float, float], float]] = {
+    "ADD": lambda a, b: a + b,
+    "SUBTRACT": lambda a, b: a - b,
+    "MULTIPLY": lambda a, b: a * b,
+    "DIVIDE": lambda a, b: a / b if b else 0.0,
+    "POWER": lambda a, b: a**b if a > 0.0 else 0.0,
+    "MINIMUM": min,
+    "MAXIMUM": max,
+}
+_UNARY: dict[str, Callable[[float], float]] = {
+    "SQRT": lambda a: math.sqrt(max(a, 0.0)),
+    "ABSOLUTE": abs,
+    "RADIANS": math.radians,
+    "DEGREES": math.degrees,
+}
+
+
+def _math(nodes: Nodes, source: Source) -> Value:
+    operation = source.node.operation
+    a = as_number(_input(nodes, source, 0))
+    if operation in _BINARY:
+        result = _BINARY[operation](a, as_number(_input(nodes, source, 1)))
+    elif operation in _UNARY:
+        result = _UNARY[operation](a)
+    else:
+        raise NotConstantError(source.node)
+    return (min(max(result, 0.0), 1.0) if source.node.use_clamp else result,)
+
+
+_BLENDS: dict[str, Callable[[float, float], float]] = {
+    "MIX": lambda a, b: b,
+    "MULTIPLY": lambda a, b: a * b,
+    "ADD": lambda a, b: a + b,
+    "SUBTRACT": lambda a, b: a - b,
+    "DARKEN": min,
+    "LIGHTEN": max,
+    "SCREEN": lambda a, b: 1.0 - (1.0 - a) * (1.0 - b),
+}
+
+
+def _mix(nodes: Nodes, source: Source) -> Value:
+    node = source.node
+    if node.bl_idname == "ShaderNodeMix":
+        suffix = {"FLOAT": "Float", "VECTOR": "Vector", "RGBA": "Color"}.get(node.data_type)
+        if suffix is None or (node.data_type == "VECTOR" and node.factor_mode != "UNIFORM"):
+            raise NotConstantError(node)
+        wanted = ("Factor_Float", f"A_{suffix}", f"B_{suffix}")
+        by_identifier = {socket.identifier: socket for socket in node.inputs}
+        factor, a, b = (nodes.value(Input(by_identifier[name], source.groups)) for name in wanted)
+        blend = node.blend_type if node.data_type == "RGBA" else "MIX"
+        clamp_factor, clamp_result = node.clamp_factor, node.clamp_result and node.data_type == "RGBA"
+    else:
+        factor, a, b = (_input(nodes, source, i) for i in range(3))
+        blend, clamp_factor, clamp_result = node.blend_type, True, node.use_clamp
+    if blend not in _BLENDS:
+        raise NotConstantError(node)
+    t = as_number(factor)
+    t = min(max(t, 0.0), 1.0) if clamp_factor else t
+    if len(a) != len(b):
+        a, b = as_color(a), as_color(b)
+    result = tuple(x + t * (_BLENDS[blend](x, y) - x) for x, y in zip(a, b, strict=True))
+    return tuple(min(max(v, 0.0), 1.0) for v in result) if clamp_result else result
+
+
+def _gamma(nodes: Nodes, source: Source) -> Value:
+    exponent = as_number(_input(nodes, source, 1))
+    return tuple(v**exponent if v > 0.0 else v for v in as_color(_input(nodes, source, 0)))
+
+
+def _invert(nodes: Nodes, source: Source) -> Value:
+    factor = as_number(_input(nodes, source, 0))
+    return tuple(v + factor * (1.0 - 2.0 * v) for v in as_color(_input(nodes, source, 1)))
+
+
+def _ramp(nodes: Nodes, source: Source) -> Value:
+    color = source.node.color_ramp.evaluate(as_number(_input(nodes, source, 0)))
+    return (color[3],) if source.output.identifier == "Alpha" else tuple(color[:3])
+
+
+def _to_gray(nodes: Nodes, source: Source) -> Value:
+    return (luminance(as_color(_input(nodes, source, 0))),)
+
+
+def _fresnel(nodes: Nodes, source: Source) -> Value:
+    mean = mean_fresnel(max(as_number(_input(nodes, source, 0)), 1e-3))
+    nodes.notice(source.node, f"varies with the angle; its mean over all directions ({mean:.3g}) is used")
+    return (mean,)
+
+
+def _layer_weight(nodes: Nodes, source: Source) -> Value:
+    blend = min(max(as_number(_input(nodes, source, 0)), 0.0), 1.0 - 1e-5)
+    if source.output.identifier == "Fresnel":
+        mean = mean_fresnel(1.0 / (1.0 - blend))
+    else:  # 1 - cos^p, its mean over the cosine-weighted hemisphere
+        power = 2.0 * blend if blend < 0.5 else 0.5 / (1.0 - blend)
+        mean = 1.0 - 2.0 / (power + 2.0)
+    nodes.notice(source.node, f"varies with the angle; its mean over all directions ({mean:.3g}) is used")
+    return (mean,)
+
+
+def read_image(image: bpy.types.Image) -> np.ndarray:
+    """(height, width, channels) float32, linear, bottom row first."""
+    width, height = image.size
+    channels = image.channels
+    if not width or not height or not channels:
+        raise ValueError("has no pixels")
+    pixels = np.empty(width * height * channels, np.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(height, width, channels)
+    if not image.is_float and image.colorspace_settings.name.startswith("sRGB"):
+        pixels[..., :3] = srgb_to_linear(pixels[..., :3])
+    if channels < 3:
+        pixels = np.repeat(pixels[..., :1], 3, axis=2)
+    return pixels
+
+
+def _image_texture(nodes: Nodes, source: Source) -> Value:
+    image = source.node.image
+    if image is None:
+        raise NotConstantError(source.node)
+    try:
+        pixels = read_image(image)
+    except (ValueError, RuntimeError):
+        raise NotConstantError(source.node) from None
+    if source.output.identifier == "Alpha":
+        mean: Value = (float(pixels[..., 3].mean()) if pixels.shape[2] > 3 else 1.0,)
+    else:
+        mean = tuple(float(v) for v in pixels[..., :3].mean(axis=(0, 1)))
+    shown = ", ".join(f"{v:.3g}" for v in mean)
+    nodes.notice(source.node, f"textures are not supported; the mean of image '{image.name}' ({shown}) is used")
+    return mean
+
+
+_FOLDS: dict[str, Callable[[Nodes, Source], Value]] = {
+    "ShaderNodeRGB": _own_value,
+    "ShaderNodeValue": _own_value,
+    "ShaderNodeBlackbody": _blackbody,
+    "ShaderNodeCombineColor": _combine,
+    "ShaderNodeCombineRGB": _combine,
+    "ShaderNodeCombineXYZ": _combine,
+    "ShaderNodeMath": _math,
+    "ShaderNodeMix": _mix,
+    "ShaderNodeMixRGB": _mix,
+    "ShaderNodeGamma": _gamma,
+    "ShaderNodeInvert": _invert,
+    "ShaderNodeValToRGB": _ramp,
+    "ShaderNodeRGBToBW": _to_gray,
+    "ShaderNodeFresnel": _fresnel,
+    "ShaderNodeLayerWeight": _layer_weight,
+    "ShaderNodeTexImage": _image_texture,
+}

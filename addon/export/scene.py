@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A depsgraph -> SceneDescription: the one way in."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..film.passes import RenderPass
+from ..scene.description import Lamp, Mesh, NamedMaterial, Object, SceneDescription, Spheres
+from ..scene.problems import GlimmerError, Notice, Notices, place
+from .camera import export_camera
+from .film import export_film, export_settings
+from .instance import BulkReader, Placed, placed_objects
+from .light import export_lamp
+from .material import export_material
+from .mesh import export_mesh, fit_sphere, read
+from .world import export_world, warn_of_black_sky
+
+if TYPE_CHECKING:
+    import bpy
+
+SURFACES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+# Kinds that show something in Cycles and nothing here.
+UNSUPPORTED = {"CURVES", "HAIR", "POINTCLOUD", "VOLUME", "GPENCIL", "GREASEPENCIL"}
+
+
+@dataclass(frozen=True)
+class Exported:
+    scene: SceneDescription
+    notices: tuple[Notice, ...]
+    seconds: float  # of the export
+    bytes: int  # of its arrays
+
+
+def export_scene(
+    depsgraph: bpy.types.Depsgraph,
+    camera: bpy.types.Object | None,
+    passes: tuple[RenderPass, ...],
+    version: tuple[int, ...],
+    readers: tuple[BulkReader, ...] = (),
+    is_preview: bool = False,
+) -> Exported:
+    """Raises GlimmerError when no picture can be made of the scene.
+
+    camera: evaluated. version: Blender's. readers: see BulkReader.
+    """
+    start = time.perf_counter()
+    notices = Notices()
+    scene = depsgraph.scene_eval
+    film = export_film(scene, notices)
+    view_camera = export_camera(camera, (film.width, film.height), notices)
+    collector = _Collector(depsgraph, version, notices)
+    for placed in placed_objects(depsgraph, readers):
+        collector.add(placed)
+    environment, medium = export_world(scene.world, notices)
+    lights = tuple(collector.lights)
+    warn_of_black_sky(scene.world, environment, lights, medium, notices)
+    description = SceneDescription(
+        film=film,
+        camera=view_camera,
+        materials=tuple(collector.materials),
+        objects=tuple(collector.objects),
+        spheres=tuple(collector.spheres),
+        lights=lights,
+        environment=environment,
+        medium=medium,
+        settings=export_settings(scene, passes, is_preview),
+    )
+    return Exported(description, tuple(notices.items), time.perf_counter() - start, _size(description))
+
+
+def _size(scene: SceneDescription) -> int:
+    arrays: list[Any] = [item.instances for item in scene.objects] + [scene.environment.image]
+    for mesh in scene.meshes():
+        arrays += [mesh.vertices, mesh.triangles, mesh.normals, mesh.slots]
+    for spheres in scene.spheres:
+        arrays += [spheres.centers, spheres.radii]
+    return sum(array.nbytes for array in arrays if array is not None)
+
+
+class _Collector:
+    def __init__(self, depsgraph: bpy.types.Depsgraph, version: tuple[int, ...], notices: Notices) -> None:
+        self.objects: list[Object] = []
+        self.spheres: list[Spheres] = []
+        self.lights: list[Lamp] = []
+        self.materials: list[NamedMaterial] = []
+        self._depsgraph = depsgraph
+        self._version = version
+        self._notices = notices
+        self._material_numbers: dict[int, int] = {}
+        self._override = depsgraph.view_layer_eval.material_override
+        self._meshes: dict[tuple[int, int], Mesh | None] = {}
+
+    def add(self, placed: Placed) -> None:
+        kind = placed.item.type
+        if kind in SURFACES:
+            self._add_surface(placed)
+        elif kind == "LIGHT":
+            for matrix in placed.all_matrices():
+                lamp = export_lamp(placed.item, matrix, self._version, self._notices)
+                if lamp is not None:
+                    self.lights.append(lamp)
+        elif kind in UNSUPPORTED:
+            self._notices.add(place(placed.item.name), f"objects of type {kind.title()} are not supported and left out")
+
+    def _add_surface(self, placed: Placed) -> None:
+        item = placed.item
+        matrices = placed.all_matrices()
+        if not np.isfinite(matrices).all():
+            raise GlimmerError(f"Object '{item.name}' stands at a place that is not finite")
+        settings = getattr(item.original, "glimmer", None)
+        if settings is not None and settings.is_sphere:
+            self._add_spheres(item, matrices)
+            return
+        slots = [slot.material for slot in item.material_slots] or [None]
+        mesh = self._mesh(item, len(slots))
+        if mesh is None:
+            return
+        materials = tuple(self._material(material, item.name) for material in slots)
+        many = len(matrices) > 1
+        self.objects.append(
+            Object(
+                name=item.name,
+                mesh=mesh,
+                materials=materials,
+                to_world=np.eye(4) if many else matrices[0],
+                instances=matrices if many else None,
+                object_index=item.pass_index,
+            )
+        )
+
+    def _add_spheres(self, item: bpy.types.Object, matrices: np.ndarray) -> None:
+        mesh = item.to_mesh()
+        try:
+            points = np.zeros((0, 3)) if mesh is None else read(mesh.vertices, "co", np.float32, 3)
+        finally:
+            item.to_mesh_clear()
+        if len(points) == 0:
+            return
+        center, radius = fit_sphere(points, item.name)
+        scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
+        if (np.ptp(scales, axis=1) > 1e-3 * scales.max(axis=1)).any():
+            raise GlimmerError(
+                f"Object '{item.name}' is marked as an analytic sphere and scaled unevenly: scale it alike along x, y"
+                " and z, or clear Object properties > Glimmer > Analytic Sphere"
+            )
+        material = item.material_slots[0].material if item.material_slots else None
+        self.spheres.append(
+            Spheres(
+                name=item.name,
+                centers=matrices[:, :3, :3] @ center + matrices[:, :3, 3],
+                radii=radius * scales.mean(axis=1),
+                material=self._material(material, item.name),
+                object_index=item.pass_index,
+            )
+        )
+
+    def _mesh(self, item: bpy.types.Object, slot_count: int) -> Mesh | None:
+        key = (item.data.as_pointer(), slot_count)
+        if key not in self._meshes:
+            # A copy: triangles and split normals are made in place, and the evaluated mesh belongs to Blender.
+            mesh = item.to_mesh()
+            try:
+                self._meshes[key] = None if mesh is None else export_mesh(mesh, item.data.name, slot_count)
+            except (RuntimeError, ValueError, IndexError) as error:
+                raise GlimmerError(f"The mesh of object '{item.name}' cannot be read: {error}") from error
+            finally:
+                item.to_mesh_clear()
+        return self._meshes[key]
+
+    def _material(self, material: bpy.types.Material | None, object_name: str) -> int:
+        material = self._override or material
+        key = 0 if material is None else material.original.as_pointer()
+        if key not in self._material_numbers:
+            self._material_numbers[key] = len(self.materials)
+            self.materials.append(export_material(material, object_name, self._notices))
+        return self._material_numbers[key]

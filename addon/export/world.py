@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's world -> Environment and Medium."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..scene.description import BLACK, Environment, Floats, Lamp, Medium, Rgb, SunLight
+from ..scene.problems import Notices
+from .combine import add_colors
+from .nodes import Input, Nodes, Source, lerp, read_image, scaled
+from .volume import volume_medium
+
+if TYPE_CHECKING:
+    import bpy
+
+
+def _around_z(angle: float) -> Floats:
+    matrix = np.eye(4)
+    matrix[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return matrix
+
+
+# The centre of an equirectangular image lies along +y for the engine, and along -x... see IMAGE_TURN's test.
+IMAGE_TURN = _around_z(-pi / 2.0)
+
+
+def export_world(world: bpy.types.World | None, notices: Notices) -> tuple[Environment, Medium | None]:
+    if world is None:
+        return Environment(), None
+    if not world.use_nodes or world.node_tree is None:
+        return Environment(radiance=(world.color[0], world.color[1], world.color[2])), None
+    nodes = Nodes(world.node_tree, f"world '{world.name}'", notices)
+    surface, volume = nodes.surface_of_output(), nodes.surface_of_output("Volume")
+    environment = Environment() if surface is None else _Background(nodes, world).shader(surface)
+    return environment, None if volume is None else volume_medium(nodes, volume)
+
+
+def warn_of_black_sky(
+    world: bpy.types.World | None,
+    environment: Environment,
+    lights: tuple[Lamp, ...],
+    medium: Medium | None,
+    notices: Notices,
+) -> None:
+    """Space without end in fog is opaque: nothing from outside of it arrives."""
+    if medium is None or not any(a + s > 0.0 for a, s in zip(medium.sigma_a, medium.sigma_s, strict=True)):
+        return
+    if any(environment.radiance):
+        notices.add(
+            f"world '{world.name}'" if world else "",
+            "its background is black behind its own endless fog, as in Cycles: remove the world's Volume shader, or"
+            " light the scene with lamps and emissive objects inside the fog",
+        )
+    for lamp in lights:
+        if isinstance(lamp, SunLight):
+            notices.add(
+                f"object '{lamp.name}'",
+                "a sun is black behind the world's endless fog, as in Cycles: use a point, spot or area lamp or an"
+                " emissive object inside the fog, or remove the world's Volume shader",
+            )
+
+
+@dataclass
+class _Background:
+    nodes: Nodes
+    world: Any
+
+    def shader(self, item: Input) -> Environment:
+        source = self.nodes.source(item)
+        if source is None or source.node is None:
+            return Environment()
+        kind = source.node.bl_idname
+        if kind in ("ShaderNodeBackground", "ShaderNodeEmission"):
+            return self._background(source)
+        if kind == "ShaderNodeMixShader":
+            factor = self.nodes.number(source.node, source.groups, source.node.inputs[0].name)
+            first, second = (self.shader(Input(source.node.inputs[i], source.groups)) for i in (1, 2))
+            return self._sum(source, _dimmed(first, 1.0 - factor), _dimmed(second, factor))
+        if kind == "ShaderNodeAddShader":
+            first, second = (self.shader(Input(source.node.inputs[i], source.groups)) for i in (0, 1))
+            return self._sum(source, first, second)
+        return self._fallback(source.node, "is not supported in a world")
+
+    def _sum(self, source: Source, a: Environment, b: Environment) -> Environment:
+        if a.image is None and b.image is None:
+            return Environment(radiance=add_colors(a.radiance, b.radiance))
+        for one, other in ((a, b), (b, a)):
+            if one.image is not None and other.radiance == BLACK:
+                return one
+        self.nodes.notice(source.node, "a mix with an image is not supported; the image alone is used")
+        return a if a.image is not None else b
+
+    def _background(self, source: Source) -> Environment:
+        node = source.node
+        strength = max(self.nodes.number(node, source.groups, "Strength"), 0.0)
+        color_input = Input(node.inputs["Color"], source.groups)
+        color_source = self.nodes.source(color_input)
+        if color_source is not None and color_source.node is not None:
+            if color_source.node.bl_idname == "ShaderNodeTexEnvironment":
+                return _dimmed(self._image(color_source), strength)
+            if color_source.node.bl_idname == "ShaderNodeTexSky":
+                return _dimmed(self._fallback(color_source.node, "(the sky) is not supported"), strength)
+        fallback: Rgb = (self.world.color[0], self.world.color[1], self.world.color[2])
+        color = self.nodes.color(node, source.groups, ("Color",), fallback)
+        return Environment(radiance=scaled(color, strength))
+
+    def _image(self, source: Source) -> Environment:
+        node = source.node
+        image = node.image
+        if image is None:
+            return self._fallback(node, "has no image")
+        try:
+            pixels = read_image(image)
+        except (ValueError, RuntimeError) as error:
+            return self._fallback(node, f"cannot read image '{image.name}': {error}")
+        if node.projection != "EQUIRECTANGULAR":
+            self.nodes.notice(node, "a mirror ball is not supported; the image is read as equirectangular")
+        # The engine wants finite light that is not negative, top row first.
+        pixels = np.ascontiguousarray(np.maximum(np.nan_to_num(pixels[::-1, :, :3]), 0.0), np.float32)
+        return Environment((1.0, 1.0, 1.0), pixels, self._turn(source) @ IMAGE_TURN)
+
+    def _turn(self, source: Source) -> Floats:
+        """How the image is turned by a Mapping node between the texture coordinates and the image."""
+        vector = self.nodes.source(Input(source.node.inputs["Vector"], source.groups))
+        if vector is None or vector.node is None:
+            return np.eye(4)
+        node = vector.node
+        if node.bl_idname == "ShaderNodeTexCoord":
+            if vector.output.name not in ("Generated", "Object"):
+                self.nodes.notice(node, f"coordinates '{vector.output.name}' are not supported; Generated is used")
+            return np.eye(4)
+        if node.bl_idname != "ShaderNodeMapping" or node.inputs["Rotation"].is_linked:
+            self.nodes.notice(node, "cannot be rendered; the image is not turned")
+            return np.eye(4)
+        if any(node.inputs["Location"].default_value) or any(v != 1.0 for v in node.inputs["Scale"].default_value):
+            self.nodes.notice(node, "moving or scaling the image of a world is not supported; it is turned alone")
+        # The mapping turns the direction that is looked up, so the picture turns the other way.
+        rotation = node.inputs["Rotation"].default_value.to_matrix().to_4x4()
+        turn = np.array(rotation, np.float64)
+        return turn if node.vector_type == "TEXTURE" else turn.T
+
+    def _fallback(self, node: Any, what: str) -> Environment:
+        color = self.world.color
+        shown = ", ".join(f"{v:.3g}" for v in color)
+        self.nodes.notice(node, f"{what}; the world's viewport colour ({shown}) is used")
+        return Environment(radiance=(color[0], color[1], color[2]))
+
+
+def _dimmed(environment: Environment, factor: float) -> Environment:
+    return replace(environment, radiance=lerp(BLACK, environment.radiance, factor))

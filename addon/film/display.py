@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Watches a render and hands its pixels to Blender: tiles as they finish, every pass at the end."""
+
+from __future__ import annotations
+
+import time
+from math import isnan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..native.render import NativeRender, Progress, Tile
+from ..scene.description import SceneDescription
+from ..scene.problems import GlimmerError
+from .passes import COMBINED, Pixels, RenderPass, hand_over
+
+if TYPE_CHECKING:
+    import bpy
+
+POLL_SECONDS = 0.05  # also how late Esc may be noticed
+STATUS_SECONDS = 0.25  # in background every line is printed
+REFRESH_SECONDS = 0.5
+# Handing pixels over costs render time: never more than this share of it.
+MAX_REFRESH_SHARE = 0.05
+# More changed tiles than this are handed over as one: each costs Blender a lock and a redraw.
+MAX_TILES = 16
+
+
+def status(progress: Progress, samples: int) -> str:
+    """The line that Blender shows while rendering."""
+    parts = [f"Sample {progress.samples}/{samples}" if samples else f"Sample {progress.samples}"]
+    if progress.seconds_left is not None:
+        parts.append(f"Left {clock(progress.seconds_left)}")
+    if not isnan(progress.relmse):
+        parts.append(f"Error {progress.relmse:.2g}")
+    parts.append(f"Engine {progress.peak_bytes / 2**20:.0f} MB")
+    return " | ".join(parts)
+
+
+def clock(seconds: float) -> str:
+    minutes, rest = divmod(int(seconds + 0.5), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{rest:02d}" if hours else f"{minutes:02d}:{rest:02d}"
+
+
+class Display:
+    def __init__(
+        self,
+        engine: bpy.types.RenderEngine,
+        render: NativeRender,
+        scene: SceneDescription,
+        passes: tuple[RenderPass, ...],
+        layer: str,
+    ) -> None:
+        self._engine = engine
+        self._render = render
+        self._settings = scene.settings
+        self._passes = passes
+        self._layer = layer
+        x0, y0, x1, y1 = scene.film.window
+        self._whole = Tile(0, 0, x1 - x0, y1 - y0)
+        self._material_indices = self._index_table(scene)
+
+    def _index_table(self, scene: SceneDescription) -> NDArray[np.float32]:
+        """Blender's material index of each of the engine's numbers, which count from 1."""
+        numbers = self._render.material_numbers
+        table = np.zeros(max(numbers, default=0) + 2, np.float32)
+        for number, material in zip(numbers, scene.materials, strict=True):
+            table[number + 1] = material.pass_index
+        return table
+
+    def run(self) -> None:
+        """Until the render has ended or the user has cancelled it; what is there by then is kept."""
+        self._render.start()
+        refresh_at = status_at = 0.0
+        while True:
+            if self._engine.test_break():
+                self._render.cancel()
+            progress = self._render.poll()
+            if time.monotonic() >= status_at or progress.ended:
+                self._tell(progress)
+                status_at = time.monotonic() + STATUS_SECONDS
+            if progress.ended:
+                break
+            if time.monotonic() >= refresh_at and progress.samples > 0:
+                refresh_at = self._refresh()
+            self._render.wait(POLL_SECONDS)
+        self._render.wait(-1.0)
+        self._show(self._whole, final=True)
+
+    def _tell(self, progress: Progress) -> None:
+        self._engine.update_stats("", status(progress, self._settings.samples))
+        self._engine.update_progress(progress.fraction)
+        megabytes = progress.peak_bytes / 2**20
+        self._engine.update_memory_stats(memory_used=megabytes, memory_peak=megabytes)
+
+    def _refresh(self) -> float:
+        """Shows what changed. Returns when to look again."""
+        start = time.monotonic()
+        tiles = self._render.changed_tiles()
+        for tile in tiles if len(tiles) <= MAX_TILES else [self._whole]:
+            self._show(tile)
+        end = time.monotonic()
+        return end + max(REFRESH_SECONDS, (end - start) / MAX_REFRESH_SHARE)
+
+    def _show(self, tile: Tile, final: bool = False) -> None:
+        combined = self._render.read(COMBINED.engine_name, tile)
+        result = self._engine.begin_result(
+            tile.x, self._whole.height - tile.y - tile.height, tile.width, tile.height, layer=self._layer
+        )
+        try:
+            if (result.resolution_x, result.resolution_y) != (tile.width, tile.height):
+                raise GlimmerError(
+                    f"Blender expects {result.resolution_x} x {result.resolution_y} pixels where the engine rendered"
+                    f" {tile.width} x {tile.height}: a defect of the add-on, please report it with the border's numbers"
+                )
+            self._fill(result.layers[0].passes, tile, combined, final)
+        finally:
+            self._engine.end_result(result)
+
+    def _fill(self, layer_passes: Any, tile: Tile, combined: Pixels, final: bool) -> None:
+        flat = hand_over(
+            layer_passes=[item.name for item in layer_passes],
+            channels=[item.channels for item in layer_passes],
+            shape=(tile.height, tile.width),
+            read=(lambda item: self._render.read(item.engine_name, tile)) if final else None,
+            combined=combined,
+            material_indices=self._material_indices,
+        )
+        layer_passes.foreach_set("rect", flat)

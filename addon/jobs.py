@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One view layer's way from the depsgraph to the render result."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import bpy
+
+from . import reports
+from .export.instance import BulkReader
+from .export.scene import Exported, export_scene
+from .film import passes
+from .film.display import Display
+from .hexfield.export import export_instances
+from .native.render import open_render
+from .scene.writer import write_scene
+
+BULK_READERS: tuple[BulkReader, ...] = (export_instances,)
+
+
+class Job(Protocol):
+    def run(self, engine: bpy.types.RenderEngine) -> None: ...
+
+
+@dataclass(frozen=True)
+class RenderJob:
+    exported: Exported
+    passes: tuple[passes.RenderPass, ...]
+    layer: str
+
+    def run(self, engine: bpy.types.RenderEngine) -> None:
+        for item in self.passes[1:]:
+            engine.add_pass(item.blender_name, len(item.channels), item.channels, layer=self.layer)
+        engine.update_stats("", "Building")
+        render, warnings = open_render(self.exported.scene)
+        with render:
+            display = Display(engine, render, self.exported.scene, self.passes, self.layer)
+            display.run()
+            report = reports.collect(render.report(), self.exported, warnings)
+        if not engine.is_preview:
+            reports.publish(engine, report)
+
+
+@dataclass(frozen=True)
+class ExportJob:
+    """Writes the scene file in place of rendering; see operators/export_scene.py."""
+
+    exported: Exported
+    path: Path
+
+    def run(self, engine: bpy.types.RenderEngine) -> None:
+        write_scene(self.exported.scene, self.path)
+        begin_and_end_result(engine)
+        reports.publish(engine, reports.collect({}, self.exported, []))
+
+
+# The scene file that the next render is to write, set by the export operator.
+export_request: dict[str, Path] = {}
+
+
+def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Job:
+    enabled = (passes.COMBINED,) if engine.is_preview else passes.enabled(depsgraph.view_layer_eval)
+    engine.update_stats("", "Reading the scene")
+    camera = engine.camera_override or depsgraph.scene_eval.camera
+    exported = export_scene(
+        depsgraph=depsgraph,
+        camera=None if camera is None else camera.evaluated_get(depsgraph),
+        passes=enabled,
+        version=bpy.app.version,
+        readers=BULK_READERS,
+        is_preview=engine.is_preview,
+    )
+    path = export_request.pop("path", None) if not engine.is_preview else None
+    if path is not None:
+        return ExportJob(exported, path)
+    return RenderJob(exported, enabled, depsgraph.view_layer_eval.name)
+
+
+def begin_and_end_result(engine: bpy.types.RenderEngine) -> Any:
+    """A result without pixels: Blender needs one from every render."""
+    result = engine.begin_result(0, 0, engine.resolution_x, engine.resolution_y)
+    engine.end_result(result, cancel=True)

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A running render of the engine: start, poll, read, cancel."""
+
+from __future__ import annotations
+
+import json
+from ctypes import byref, c_char_p, c_int, c_void_p
+from dataclasses import dataclass
+from math import nan
+from types import TracebackType
+from typing import Any
+from weakref import WeakSet
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene.description import RenderSettings, SceneDescription
+from ..scene.problems import GlimmerError
+from . import structs
+from .library import Library, load
+from .scene import MeshCache, NativeScene
+from .structs import State
+
+
+@dataclass(frozen=True)
+class Progress:
+    state: State
+    samples: int
+    fraction: float
+    seconds: float
+    seconds_left: float | None  # None when nothing tells
+    relmse: float = nan  # NaN when not known
+    relmse_high: float = nan
+    peak_bytes: int = 0
+    invalid_samples: int = 0
+
+    @property
+    def ended(self) -> bool:
+        return self.state in (State.FINISHED, State.CANCELLED, State.FAILED)
+
+
+@dataclass(frozen=True)
+class Tile:
+    x: int  # of the crop, from its top left
+    y: int
+    width: int
+    height: int
+
+
+class NativeRender:
+    """A render of a committed scene. Use it in a `with`; it cancels and frees at the end."""
+
+    def __init__(self, library: Library, scene: NativeScene) -> None:
+        self._library = library
+        self._scene = scene
+        self._passes = library.passes()
+        self._handle = c_void_p()
+        settings = scene.description.settings
+        desc = self._describe(settings)
+        library.call("glimmer_render_create", scene.handle, byref(desc), byref(self._handle))
+        _open_renders.add(self)
+
+    def _describe(self, settings: RenderSettings) -> Any:
+        desc = self._library.init(structs.RenderDesc)
+        desc.integrator = None if settings.integrator is None else settings.integrator.encode()
+        desc.samples, desc.seconds, desc.target_error = settings.samples, settings.seconds, settings.target_error
+        desc.seed, desc.threads, desc.tile_size = settings.seed, settings.threads, settings.tile_size
+        desc.max_depth = -1 if settings.max_depth is None else settings.max_depth
+        desc.max_scatter = -1 if settings.max_scatter is None else settings.max_scatter
+        desc.passes = 0
+        for name in settings.passes:
+            desc.passes |= 1 << self._pass(name)[0]
+        return desc
+
+    def _pass(self, name: str) -> tuple[int, str]:
+        try:
+            return self._passes[name]
+        except KeyError:
+            raise GlimmerError(f"The engine has no pass '{name}'; it has {', '.join(self._passes)}") from None
+
+    def __enter__(self) -> NativeRender:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        if self._handle:
+            self._library.free("glimmer_render_destroy", self._handle)
+            self._handle = c_void_p()
+        self._scene.close()
+        _open_renders.discard(self)
+
+    @property
+    def material_numbers(self) -> list[int]:
+        """The engine's number of each material of the description."""
+        return self._scene.material_numbers
+
+    def start(self) -> None:
+        self._library.call("glimmer_render_start", self._handle)
+
+    def cancel(self) -> None:
+        self._library.call("glimmer_render_cancel", self._handle)
+
+    def wait(self, seconds: float) -> None:
+        """Until the render has ended, or for some seconds. Raises GlimmerError with the reason of a failed render."""
+        self._library.call("glimmer_render_wait", self._handle, seconds)
+
+    def poll(self) -> Progress:
+        desc = self._library.init(structs.ProgressDesc)
+        self._library.call("glimmer_render_poll", self._handle, byref(desc))
+        return Progress(
+            state=State(desc.state),
+            samples=desc.samples,
+            fraction=desc.fraction,
+            seconds=desc.seconds,
+            seconds_left=desc.seconds_left if desc.seconds_left >= 0 else None,
+            relmse=desc.relmse,
+            relmse_high=desc.relmse_high,
+            peak_bytes=desc.peak_bytes,
+            invalid_samples=desc.invalid_samples,
+        )
+
+    def changed_tiles(self) -> list[Tile]:
+        """The tiles whose pixels changed since they were last returned."""
+        tiles: list[Tile] = []
+        desc, found = structs.TileDesc(), c_int()
+        while True:
+            self._library.call("glimmer_render_next_tile", self._handle, byref(desc), byref(found))
+            if not found.value:
+                return tiles
+            tiles.append(Tile(desc.x, desc.y, desc.width, desc.height))
+
+    def read(self, name: str, tile: Tile) -> NDArray[np.float32]:
+        """(height, width, channels) of a pass, top row first."""
+        number, channels = self._pass(name)
+        pixels = np.empty((tile.height, tile.width, len(channels)), np.float32)
+        self._library.call(
+            "glimmer_render_read",
+            self._handle,
+            number,
+            tile.x,
+            tile.y,
+            tile.width,
+            tile.height,
+            pixels.ctypes.data,
+            pixels.size,
+        )
+        return pixels
+
+    def report(self) -> dict[str, Any]:
+        text = c_char_p()
+        self._library.call("glimmer_render_report", self._handle, byref(text))
+        report: dict[str, Any] = json.loads((text.value or b"{}").decode())
+        return report
+
+
+_open_renders: WeakSet[NativeRender] = WeakSet()
+_meshes: dict[int, MeshCache] = {}
+
+
+def open_render(scene: SceneDescription) -> tuple[NativeRender, list[str]]:
+    """Builds the scene and a render of it, ready to start, and the scene's warnings.
+
+    Meshes of the last scene that are in this one too are not built again.
+    """
+    library = load()
+    meshes = _meshes.setdefault(id(library), MeshCache(library))
+    native = NativeScene(library, scene, meshes)
+    meshes.keep_only({mesh.digest for mesh in scene.meshes()})
+    try:
+        return NativeRender(library, native), native.warnings()
+    except BaseException:
+        native.close()
+        raise
+
+
+def close_all() -> None:
+    """Cancels and frees whatever is still open: for when the add-on is switched off or the process ends."""
+    for render in list(_open_renders):
+        render.close()
+    for meshes in _meshes.values():
+        meshes.clear()

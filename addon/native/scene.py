@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""SceneDescription -> a committed scene of the engine."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from ctypes import byref, c_double, c_float, c_uint32, c_void_p
+from typing import Any
+
+import numpy as np
+
+from ..scene import description as d
+from ..scene.problems import GlimmerError
+from . import structs
+from .library import Library
+from .structs import Filter, Format, LightType, MaterialType
+
+
+def _contiguous_floats(array: Any) -> tuple[Any, Format]:
+    """As either precision that the engine takes, and which: nothing is copied that fits already."""
+    values = np.ascontiguousarray(array)
+    if values.dtype == np.float32:
+        return values, Format.FLOAT32
+    return np.ascontiguousarray(values, np.float64), Format.FLOAT64
+
+
+def _pointer(array: Any) -> int | None:
+    return None if array is None else array.ctypes.data
+
+
+def _matrix(array: Any) -> Any:
+    return (c_double * 16)(*np.asarray(array, np.float64).reshape(16))
+
+
+class MeshCache:
+    """The engine's meshes by content, kept from one frame to the next while they are in use."""
+
+    def __init__(self, library: Library) -> None:
+        self._library = library
+        self._handles: dict[bytes, c_void_p] = {}
+
+    def __len__(self) -> int:
+        return len(self._handles)
+
+    def get(self, mesh: d.Mesh) -> c_void_p:
+        handle = self._handles.get(mesh.digest)
+        if handle is None:
+            handle = self._handles[mesh.digest] = self._create(mesh)
+        return handle
+
+    def keep_only(self, meshes: set[bytes]) -> None:
+        for digest in [known for known in self._handles if known not in meshes]:
+            self._library.free("glimmer_mesh_destroy", self._handles.pop(digest))
+
+    def clear(self) -> None:
+        self.keep_only(set())
+
+    def _create(self, mesh: d.Mesh) -> c_void_p:
+        desc = self._library.init(structs.MeshDesc)
+        vertices, kind = _contiguous_floats(mesh.vertices)
+        normals = None if mesh.normals is None else np.ascontiguousarray(mesh.normals, vertices.dtype)
+        triangles = np.ascontiguousarray(mesh.triangles, np.uint32)
+        slots = None if mesh.slots is None else np.ascontiguousarray(mesh.slots, np.uint16)
+        desc.name = mesh.name.encode()
+        desc.format = kind
+        desc.vertex_count, desc.vertices, desc.normals = len(vertices), _pointer(vertices), _pointer(normals)
+        desc.triangle_count, desc.triangles, desc.slots = len(triangles), _pointer(triangles), _pointer(slots)
+        handle = c_void_p()
+        self._library.call("glimmer_mesh_create", byref(desc), byref(handle))
+        return handle
+
+
+class NativeScene:
+    """A scene of the engine, committed. Close it when its renders are closed."""
+
+    def __init__(self, library: Library, scene: d.SceneDescription, meshes: MeshCache) -> None:
+        self.library = library
+        self.description = scene
+        self.handle = c_void_p()
+        self.material_numbers: list[int] = []  # the engine's, of each material of the description
+        library.call("glimmer_scene_create", byref(self.handle))
+        try:
+            self._fill(scene, meshes)
+            library.call("glimmer_scene_commit", self.handle, scene.settings.threads)
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        if self.handle:
+            self.library.free("glimmer_scene_destroy", self.handle)
+            self.handle = c_void_p()
+
+    def warnings(self) -> list[str]:
+        return self.library.warnings(self.handle)
+
+    def _fill(self, scene: d.SceneDescription, meshes: MeshCache) -> None:
+        self._set_film(scene.film)
+        self._set_camera(scene.camera)
+        materials = self.material_numbers = _MaterialAdder(self.library, self.handle).add_all(scene.materials)
+        for item in scene.objects:
+            self._add_object(item, materials, meshes)
+        for spheres in scene.spheres:
+            self._add_spheres(spheres, materials)
+        for lamp in scene.lights:
+            self._add_lamp(lamp)
+        self._set_environment(scene.environment)
+        if scene.medium is not None:
+            medium = scene.medium
+            sigma_a, sigma_s = (c_double * 3)(*medium.sigma_a), (c_double * 3)(*medium.sigma_s)
+            self.library.call("glimmer_scene_set_medium", self.handle, sigma_a, sigma_s, medium.g)
+
+    def _set_film(self, film: d.Film) -> None:
+        desc = self.library.init(structs.FilmDesc)
+        desc.width, desc.height = film.width, film.height
+        if film.crop is not None:
+            desc.crop = (c_uint32 * 4)(*film.crop)
+        desc.filter = Filter[film.filter.upper()]
+        desc.filter_width = film.filter_width
+        self.library.call("glimmer_scene_set_film", self.handle, byref(desc))
+
+    def _set_camera(self, camera: d.Camera) -> None:
+        desc = self.library.init(structs.CameraDesc)
+        desc.to_world = _matrix(camera.to_world)
+        desc.fov_x = camera.fov_x
+        desc.shift = (c_double * 2)(*camera.shift)
+        desc.lens_radius, desc.focus_distance = camera.lens_radius, camera.focus_distance
+        desc.clip_start, desc.clip_end = camera.clip_start, camera.clip_end
+        self.library.call("glimmer_scene_set_camera", self.handle, byref(desc))
+
+    def _add_object(self, item: d.Object, materials: list[int], meshes: MeshCache) -> None:
+        desc = self.library.init(structs.ObjectDesc)
+        numbers = (c_uint32 * len(item.materials))(*(materials[i] for i in item.materials))
+        desc.name = item.name.encode()
+        desc.mesh = meshes.get(item.mesh)
+        desc.material_count = len(numbers)
+        desc.materials = ctypes.cast(numbers, c_void_p)
+        desc.to_world = _matrix(item.to_world)
+        desc.object_index = item.object_index
+        matrices = None
+        if item.instances is not None:
+            matrices, kind = _contiguous_floats(item.instances[:, :3, :])
+            desc.instance_count, desc.instance_format, desc.instances = len(matrices), kind, _pointer(matrices)
+        self.library.call("glimmer_scene_add_object", self.handle, byref(desc))
+
+    def _add_spheres(self, spheres: d.Spheres, materials: list[int]) -> None:
+        desc = self.library.init(structs.SpheresDesc)
+        centers = np.ascontiguousarray(spheres.centers, np.float64)
+        radii = np.ascontiguousarray(spheres.radii, np.float64)
+        desc.name = spheres.name.encode()
+        desc.count, desc.centers = len(centers), _pointer(centers)
+        desc.radius_count, desc.radii = len(radii), _pointer(radii)
+        desc.material = materials[spheres.material]
+        desc.object_index = spheres.object_index
+        self.library.call("glimmer_scene_add_spheres", self.handle, byref(desc))
+
+    def _add_lamp(self, lamp: d.Lamp) -> None:
+        desc = self.library.init(structs.LightDesc)
+        desc.name = lamp.name.encode()
+        _LAMP_FILLERS[type(lamp)](desc, lamp)
+        self.library.call("glimmer_scene_add_light", self.handle, byref(desc))
+
+    def _set_environment(self, environment: d.Environment) -> None:
+        image = c_void_p()
+        if environment.image is not None:
+            pixels = np.ascontiguousarray(environment.image, np.float32)
+            height, width, channels = pixels.shape
+            self.library.call("glimmer_image_create", width, height, channels, pixels.ctypes.data, byref(image))
+        try:
+            color = (c_float * 3)(*environment.radiance)
+            to_world = _matrix(environment.to_world)
+            self.library.call("glimmer_scene_set_environment", self.handle, color, image, to_world)
+        finally:
+            self.library.free("glimmer_image_destroy", image)
+
+
+def _fill_point(desc: Any, lamp: d.PointLight) -> None:
+    desc.type = LightType.POINT
+    desc.color, desc.position, desc.radius = lamp.intensity, lamp.position, lamp.radius
+
+
+def _fill_spot(desc: Any, lamp: d.SpotLight) -> None:
+    desc.type = LightType.SPOT
+    desc.color, desc.position, desc.radius = lamp.intensity, lamp.position, lamp.radius
+    desc.direction, desc.angle, desc.blend = lamp.direction, lamp.angle, lamp.blend
+
+
+def _fill_sun(desc: Any, lamp: d.SunLight) -> None:
+    desc.type = LightType.SUN
+    desc.color, desc.direction, desc.angle = lamp.irradiance, lamp.direction, lamp.angle
+
+
+def _fill_area(desc: Any, lamp: d.AreaLight) -> None:
+    desc.type = LightType.AREA
+    desc.color, desc.to_world = lamp.radiance, _matrix(lamp.to_world)
+    desc.size, desc.ellipse = lamp.size, int(lamp.ellipse)
+
+
+_LAMP_FILLERS: dict[type, Callable[[Any, Any], None]] = {
+    d.PointLight: _fill_point,
+    d.SpotLight: _fill_spot,
+    d.SunLight: _fill_sun,
+    d.AreaLight: _fill_area,
+}
+
+
+class _MaterialAdder:
+    """Adds materials, the parts of a mix before the mix itself."""
+
+    def __init__(self, library: Library, scene: c_void_p) -> None:
+        self._library = library
+        self._scene = scene
+
+    def add_all(self, materials: tuple[d.NamedMaterial, ...]) -> list[int]:
+        """The engine's number of each."""
+        return [self._add(item.name, item.material) for item in materials]
+
+    def _add(self, name: str, material: d.Material) -> int:
+        desc = self._library.init(structs.MaterialDesc)
+        desc.name = name.encode()
+        if isinstance(material, d.Lambert):
+            desc.type, desc.color = MaterialType.LAMBERT, material.albedo
+        elif isinstance(material, d.Mirror):
+            desc.type, desc.color = MaterialType.MIRROR, material.reflectance
+        elif isinstance(material, d.Conductor):
+            desc.type, desc.alpha = MaterialType.CONDUCTOR, material.alpha
+            if material.f0 is not None:
+                desc.use_f0, desc.f0 = 1, material.f0
+            else:
+                desc.eta, desc.k = material.eta, material.k
+        elif isinstance(material, d.Glass):
+            desc.type, desc.ior = MaterialType.GLASS, material.ior
+        elif isinstance(material, d.Mix):
+            desc.type, desc.weight = MaterialType.MIX, material.weight
+            desc.a = self._add(f"{name}, first part", material.a)
+            desc.b = self._add(f"{name}, second part", material.b)
+        elif isinstance(material, d.Light):
+            desc.type, desc.color = MaterialType.LIGHT, material.radiance
+        elif isinstance(material, d.Null):
+            desc.type = MaterialType.NULL
+        else:
+            raise GlimmerError(f"Material '{name}': {type(material).__name__} has no counterpart in the engine")
+        desc.emission = getattr(material, "emission", d.BLACK)
+        number = c_uint32()
+        self._library.call("glimmer_scene_add_material", self._scene, byref(desc), byref(number))
+        return number.value

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The structs and enumerations of engine/include/glimmer.h, field for field in its order."""
+
+import ctypes
+from ctypes import c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
+from enum import IntEnum
+
+ABI_VERSION = 1
+
+
+class Result(IntEnum):
+    OK = 0
+    INVALID_ARGUMENT = 1
+    INVALID_STATE = 2
+    OUT_OF_MEMORY = 3
+    UNAVAILABLE = 4
+    INTERNAL = 5
+
+
+class Format(IntEnum):
+    FLOAT32 = 0
+    FLOAT64 = 1
+
+
+class MaterialType(IntEnum):
+    LAMBERT = 0
+    MIRROR = 1
+    CONDUCTOR = 2
+    GLASS = 3
+    REPORT_METAL = 4
+    MIX = 5
+    LIGHT = 6
+    NULL = 7
+
+
+class LightType(IntEnum):
+    POINT = 0
+    SPOT = 1
+    SUN = 2
+    AREA = 3
+
+
+class Filter(IntEnum):
+    BOX = 0
+    BLACKMAN_HARRIS = 1
+
+
+class State(IntEnum):
+    READY = 0
+    RUNNING = 1
+    PAUSED = 2
+    FINISHED = 3
+    CANCELLED = 4
+    FAILED = 5
+
+
+class MeshDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("format", c_int),
+        ("vertex_count", c_size_t),
+        ("vertices", c_void_p),
+        ("normals", c_void_p),
+        ("uvs", c_void_p),
+        ("triangle_count", c_size_t),
+        ("triangles", c_void_p),
+        ("slots", c_void_p),
+    ]
+
+
+class MaterialDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("type", c_int),
+        ("color", c_float * 3),
+        ("alpha", c_float),
+        ("use_f0", c_int),
+        ("eta", c_float * 3),
+        ("k", c_float * 3),
+        ("f0", c_float * 3),
+        ("masking", c_int),
+        ("ior", c_float),
+        ("schlick_fresnel", c_int),
+        ("emission", c_float * 3),
+        ("weight", c_float),
+        ("a", c_uint32),
+        ("b", c_uint32),
+    ]
+
+
+class ObjectDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("mesh", c_void_p),
+        ("material_count", c_size_t),
+        ("materials", c_void_p),
+        ("to_world", c_double * 16),
+        ("instance_count", c_size_t),
+        ("instance_format", c_int),
+        ("instances", c_void_p),
+        ("object_index", c_uint32),
+        ("object_indices", c_void_p),
+    ]
+
+
+class SpheresDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("count", c_size_t),
+        ("centers", c_void_p),
+        ("radius_count", c_size_t),
+        ("radii", c_void_p),
+        ("material", c_uint32),
+        ("object_index", c_uint32),
+    ]
+
+
+class LightDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("type", c_int),
+        ("color", c_float * 3),
+        ("position", c_double * 3),
+        ("direction", c_double * 3),
+        ("radius", c_double),
+        ("angle", c_double),
+        ("blend", c_double),
+        ("to_world", c_double * 16),
+        ("size", c_double * 2),
+        ("ellipse", c_int),
+    ]
+
+
+class CameraDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("to_world", c_double * 16),
+        ("fov_x", c_double),
+        ("shift", c_double * 2),
+        ("lens_radius", c_double),
+        ("focus_distance", c_double),
+        ("clip_start", c_double),
+        ("clip_end", c_double),
+    ]
+
+
+class FilmDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("crop", c_uint32 * 4),
+        ("filter", c_int),
+        ("filter_width", c_float),
+    ]
+
+
+class RenderDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("integrator", c_char_p),
+        ("samples", c_uint64),
+        ("seconds", c_double),
+        ("target_error", c_double),
+        ("seed", c_uint64),
+        ("threads", c_uint32),
+        ("tile_size", c_uint32),
+        ("max_depth", c_int64),
+        ("max_scatter", c_int64),
+        ("passes", c_uint32),
+    ]
+
+
+class ProgressDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("state", c_int),
+        ("samples", c_uint64),
+        ("fraction", c_double),
+        ("seconds", c_double),
+        ("seconds_left", c_double),
+        ("cpu_seconds", c_double),
+        ("relmse", c_double),
+        ("relmse_low", c_double),
+        ("relmse_high", c_double),
+        ("rays", c_uint64),
+        ("peak_bytes", c_uint64),
+        ("invalid_samples", c_uint64),
+        ("version", c_uint64),
+    ]
+
+
+class TileDesc(ctypes.Structure):
+    _fields_ = [
+        ("x", c_uint32),
+        ("y", c_uint32),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("samples", c_uint64),
+    ]
+
+
+class PassInfo(ctypes.Structure):
+    _fields_ = [("name", c_char_p), ("channels", c_char_p), ("help", c_char_p)]
+
+
+class IntegratorInfo(ctypes.Structure):
+    _fields_ = [("name", c_char_p), ("help", c_char_p)]
+
+
+# Each description and the function of the library that fills it and says how large the library believes it to be.
+INITIALISERS: dict[str, type[ctypes.Structure]] = {
+    "glimmer_mesh_init": MeshDesc,
+    "glimmer_material_init": MaterialDesc,
+    "glimmer_object_init": ObjectDesc,
+    "glimmer_spheres_init": SpheresDesc,
+    "glimmer_light_init": LightDesc,
+    "glimmer_camera_init": CameraDesc,
+    "glimmer_film_init": FilmDesc,
+    "glimmer_render_init": RenderDesc,
+    "glimmer_progress_init": ProgressDesc,
+}

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that the add-on registers, in order. `unregister` goes the same way back."""
+
+import atexit
+
+from . import engine, failure, hexfield, moons, operators, properties, reports, ui
+from .native import render
+
+_PARTS = (properties, failure, engine, operators, hexfield, moons, ui)
+_registered: list[object] = []
+
+
+def register() -> None:
+    try:
+        for part in _PARTS:
+            part.register()
+            _registered.append(part)
+    except Exception:
+        unregister()
+        raise
+    # The bpy module crashes or hangs at exit while an engine is registered; the executable has freed Blender's side by
+    # then, and only our own memory is left.
+    atexit.register(unregister if failure.is_module() else render.close_all)
+
+
+def unregister() -> None:
+    atexit.unregister(unregister)
+    atexit.unregister(render.close_all)
+    render.close_all()
+    reports.clear()
+    while _registered:
+        _registered.pop().unregister()  # type: ignore[attr-defined]

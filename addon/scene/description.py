@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A whole scene as frozen values: what the exporter makes, and what the engine and the scene file are given.
+
+Units are the engine's: one length unit, degrees, linear RGB (Rec. 709 primaries), radiance in W/(m^2 sr), intensity in
+W/sr, irradiance in W/m^2, sigma in inverse lengths. Matrices are (4, 4) float64, row-major, for column vectors.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Rgb = tuple[float, float, float]
+Floats = NDArray[np.floating]
+BLACK: Rgb = (0.0, 0.0, 0.0)
+WHITE: Rgb = (1.0, 1.0, 1.0)
+
+
+# ---- Film and camera ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Film:
+    width: int
+    height: int
+    crop: tuple[int, int, int, int] | None = None  # x0, y0, x1, y1 from the top left; None is the whole picture
+    filter: str = "box"  # or "blackman_harris"
+    filter_width: float = 1.5  # full, in pixels
+
+    @property
+    def window(self) -> tuple[int, int, int, int]:
+        """What is rendered: x0, y0, x1, y1 from the top left."""
+        return self.crop if self.crop is not None else (0, 0, self.width, self.height)
+
+
+@dataclass(frozen=True)
+class Camera:
+    to_world: Floats  # rigid; looks along -z, y up
+    fov_x: float  # full horizontal angle of the whole width
+    shift: tuple[float, float] = (0.0, 0.0)  # in widths of the picture
+    lens_radius: float = 0.0
+    focus_distance: float = 1.0
+    clip_start: float = 0.0
+    clip_end: float = float("inf")
+
+
+# ---- Materials ----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Lambert:
+    albedo: Rgb
+    emission: Rgb = BLACK
+
+
+@dataclass(frozen=True)
+class Mirror:
+    reflectance: Rgb
+    emission: Rgb = BLACK
+
+
+@dataclass(frozen=True)
+class Conductor:
+    """A rough metal: GGX of width alpha, with the exact Fresnel equations of eta + i k, or Schlick's from f0."""
+
+    alpha: float
+    f0: Rgb | None = None
+    eta: Rgb = WHITE
+    k: Rgb = BLACK
+    emission: Rgb = BLACK
+
+
+@dataclass(frozen=True)
+class Glass:
+    ior: float
+
+
+@dataclass(frozen=True)
+class Mix:
+    weight: float  # of a; the rest is b
+    a: Surface
+    b: Surface
+    emission: Rgb = BLACK
+
+
+@dataclass(frozen=True)
+class Light:
+    radiance: Rgb
+
+
+@dataclass(frozen=True)
+class Null:
+    pass
+
+
+Surface = Lambert | Mirror | Conductor | Mix  # what a mix may hold and what may also emit
+Material = Surface | Glass | Light | Null
+
+
+@dataclass(frozen=True)
+class NamedMaterial:
+    name: str
+    material: Material
+    pass_index: int = 0  # what Blender's material index pass shows
+
+
+# ---- Geometry -----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    name: str
+    vertices: Floats  # (n, 3)
+    triangles: NDArray[np.uint32]  # (t, 3)
+    normals: Floats | None = None  # (n, 3) or None for flat; a zero normal means the face's own
+    slots: NDArray[np.uint16] | None = None  # (t,): which of the object's materials; None: the first
+
+    @cached_property
+    def digest(self) -> bytes:
+        """Equal for meshes of equal content, so that frames and instances can share one."""
+        state = hashlib.blake2b(digest_size=16)
+        for array in (self.vertices, self.triangles, self.normals, self.slots):
+            state.update(b"-" if array is None else str((array.dtype, array.shape)).encode())
+            if array is not None:
+                state.update(np.ascontiguousarray(array).view(np.uint8).data)
+        return state.digest()
+
+
+@dataclass(frozen=True, eq=False)
+class Object:
+    name: str
+    mesh: Mesh
+    materials: tuple[int, ...]  # into SceneDescription.materials, one a slot
+    to_world: Floats = field(default_factory=lambda: np.eye(4))
+    instances: Floats | None = None  # (n, 4, 4), applied before to_world; None is a single one
+    object_index: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Spheres:
+    name: str
+    centers: Floats  # (n, 3)
+    radii: Floats  # (n,)
+    material: int
+    object_index: int = 0
+
+
+# ---- Lights -------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PointLight:
+    name: str
+    position: tuple[float, float, float]
+    intensity: Rgb
+    radius: float = 0.0
+
+
+@dataclass(frozen=True)
+class SpotLight:
+    name: str
+    position: tuple[float, float, float]
+    direction: tuple[float, float, float]
+    intensity: Rgb
+    angle: float
+    blend: float
+    radius: float = 0.0
+
+
+@dataclass(frozen=True)
+class SunLight:
+    name: str
+    direction: tuple[float, float, float]
+    irradiance: Rgb
+    angle: float
+
+
+@dataclass(frozen=True, eq=False)
+class AreaLight:
+    name: str
+    to_world: Floats  # rigid; emits along its -z
+    size: tuple[float, float]
+    radiance: Rgb
+    ellipse: bool = False
+
+
+Lamp = PointLight | SpotLight | SunLight | AreaLight
+
+
+@dataclass(frozen=True, eq=False)
+class Environment:
+    radiance: Rgb = BLACK  # multiplies the image where there is one
+    image: NDArray[np.float32] | None = None  # (height, width, 3) linear, top row first, centre along +y, z up
+    to_world: Floats = field(default_factory=lambda: np.eye(4))
+
+
+@dataclass(frozen=True)
+class Medium:
+    sigma_a: Rgb
+    sigma_s: Rgb
+    g: float = 0.0
+
+
+# ---- The whole ----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class RenderSettings:
+    integrator: str | None = None  # None: the engine's default
+    samples: int = 0  # 0: no limit, as in the next two
+    seconds: float = 0.0
+    target_error: float = 0.0
+    seed: int = 0
+    threads: int = 0  # 0: all
+    tile_size: int = 0  # 0: the engine's choice
+    max_depth: int | None = None
+    max_scatter: int | None = None
+    passes: tuple[str, ...] = ("combined",)  # the engine's names
+
+
+@dataclass(frozen=True, eq=False)
+class SceneDescription:
+    film: Film
+    camera: Camera
+    materials: tuple[NamedMaterial, ...]
+    objects: tuple[Object, ...] = ()
+    spheres: tuple[Spheres, ...] = ()
+    lights: tuple[Lamp, ...] = ()
+    environment: Environment = field(default_factory=Environment)
+    medium: Medium | None = None
+    settings: RenderSettings = field(default_factory=RenderSettings)
+
+    def meshes(self) -> Iterator[Mesh]:
+        """Each mesh of equal content once."""
+        seen: set[bytes] = set()
+        for item in self.objects:
+            if item.mesh.digest not in seen:
+                seen.add(item.mesh.digest)
+                yield item.mesh

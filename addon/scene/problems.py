@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What can go wrong between a Blender scene and a picture, in the words that a user reads."""
+
+from dataclasses import dataclass, field
+
+
+class GlimmerError(Exception):
+    """No picture can be made. The message is one line: what is wrong, where, and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Notice:
+    """Something of the scene that is rendered in another way than it was written, and how."""
+
+    where: str  # "object 'Moon', material 'Red', node 'Noise Texture'": the parts that apply
+    what: str
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.what}" if self.where else self.what
+
+
+def place(object_name: str = "", material: str = "", node: str = "") -> str:
+    """The words for a place in a Blender scene."""
+    parts = (("object", object_name), ("material", material), ("node", node))
+    return ", ".join(f"{kind} '{name}'" for kind, name in parts if name)
+
+
+@dataclass
+class Notices:
+    """Collects notices, each once, in the order in which they came."""
+
+    items: list[Notice] = field(default_factory=list)
+    _seen: set[Notice] = field(default_factory=set)
+
+    def add(self, where: str, what: str) -> None:
+        notice = Notice(where, what)
+        if notice not in self._seen:
+            self._seen.add(notice)
+            self.items.append(notice)

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""SceneDescription -> a scene file of the command line: JSON, with meshes as .ply and long lists as .npy beside it.
+
+The sidecars lie in a folder named after the scene file, since a scene may only name files below its own folder.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from math import isinf
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import description as d
+from .ply import write_ply
+from .problems import GlimmerError
+
+Json = dict[str, Any]
+
+# The command line takes the rest of these from its own options.
+RENDER_KEYS = ("max_depth", "max_scatter")
+
+
+def write_scene(scene: d.SceneDescription, path: Path) -> None:
+    """Raises GlimmerError when it cannot be written."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        document = _Writer(path).document(scene)
+        path.write_text(json.dumps(document, indent=1) + "\n")
+    except OSError as error:
+        raise GlimmerError(f"The scene file {path} cannot be written: {error.strerror or error}") from error
+
+
+def _numbers(array: Any) -> Any:
+    return np.asarray(array, np.float64).tolist()
+
+
+class _Writer:
+    def __init__(self, path: Path) -> None:
+        self._folder = path.with_name(path.stem + "_data")
+        self._mesh_names: dict[tuple[bytes, int], str] = {}
+        self._material_names: list[str] = []
+        self._meshes: Json = {}
+        self._arrays = 0
+
+    def document(self, scene: d.SceneDescription) -> Json:
+        self._material_names = _unique([item.name for item in scene.materials])
+        named = zip(self._material_names, scene.materials, strict=True)
+        result: Json = {
+            "glimmer": 1,
+            "film": _film(scene.film),
+            "camera": _camera(scene.camera),
+            "materials": {name: _material(item.material) for name, item in named},
+            "meshes": self._meshes,
+            "objects": [part for item in scene.objects for part in self._object(item)],
+            "spheres": [self._spheres(item) for item in scene.spheres],
+            "lights": [_LAMPS[type(lamp)](lamp) for lamp in scene.lights],
+            "environment": self._environment(scene.environment),
+        }
+        if scene.medium is not None:
+            medium = scene.medium
+            result["medium"] = {"sigma_a": list(medium.sigma_a), "sigma_s": list(medium.sigma_s), "g": medium.g}
+        result["render"] = {key: getattr(scene.settings, key) for key in RENDER_KEYS}
+        return result
+
+    def _save(self, kind: str, array: Any) -> str:
+        name = f"{kind}_{self._arrays}.npy"
+        self._arrays += 1
+        self._folder.mkdir(parents=True, exist_ok=True)
+        np.save(self._folder / name, array)
+        return f"{self._folder.name}/{name}"
+
+    def _mesh(self, mesh: d.Mesh, slot: int) -> str:
+        """A mesh of the file, of the triangles of one material slot."""
+        key = (mesh.digest, slot)
+        if key not in self._mesh_names:
+            name = self._mesh_names[key] = f"mesh_{len(self._mesh_names)}"
+            part = mesh
+            if mesh.slots is not None:
+                part = d.Mesh(mesh.name, mesh.vertices, mesh.triangles[mesh.slots == slot], mesh.normals)
+            self._folder.mkdir(parents=True, exist_ok=True)
+            write_ply(part, self._folder / f"{name}.ply")
+            self._meshes[name] = {"file": f"{self._folder.name}/{name}.ply"}
+        return self._mesh_names[key]
+
+    def _object(self, item: d.Object) -> list[Json]:
+        """One entry for each material: objects of a scene file have a single one."""
+        shared: Json = {"to_world": _numbers(item.to_world)}
+        if item.instances is not None:
+            shared["instances"] = self._save("instances", item.instances)
+        slots = [0] if item.mesh.slots is None else sorted({int(slot) for slot in np.unique(item.mesh.slots)})
+        return [
+            {
+                "mesh": self._mesh(item.mesh, slot),
+                "material": self._material_names[item.materials[slot]],
+                **shared,
+            }
+            for slot in slots
+        ]
+
+    def _spheres(self, spheres: d.Spheres) -> Json:
+        material = self._material_names[spheres.material]
+        if len(spheres.centers) == 1:
+            return {"center": _numbers(spheres.centers[0]), "radius": float(spheres.radii[0]), "material": material}
+        centers = self._save("centers", np.asarray(spheres.centers, np.float64))
+        radii = self._save("radii", np.asarray(spheres.radii, np.float64))
+        return {"centers": centers, "radii": radii, "material": material}
+
+    def _environment(self, environment: d.Environment) -> Json:
+        if environment.image is None:
+            return {"radiance": list(environment.radiance)}
+        raise GlimmerError("A world with an image cannot be written to a scene file yet: use a plain background colour")
+
+
+def _unique(names: list[str]) -> list[str]:
+    """Names of linked files may coincide; those of a scene file must not."""
+    seen: dict[str, int] = {}
+    result = []
+    for name in names:
+        count = seen[name] = seen.get(name, -1) + 1
+        result.append(name if count == 0 else f"{name} #{count}")
+    return result
+
+
+def _film(film: d.Film) -> Json:
+    result: Json = {"width": film.width, "height": film.height}
+    if film.filter == "box":
+        result["filter"] = "box"
+    else:
+        result["filter"] = {"type": film.filter, "width": film.filter_width}
+    if film.crop is not None:
+        result["crop"] = list(film.crop)
+    return result
+
+
+def _camera(camera: d.Camera) -> Json:
+    result: Json = {"to_world": _numbers(camera.to_world), "fov_x": camera.fov_x}
+    if any(camera.shift):
+        result["shift"] = list(camera.shift)
+    if camera.lens_radius > 0.0:
+        result["lens_radius"], result["focus_distance"] = camera.lens_radius, camera.focus_distance
+    if camera.clip_start > 0.0:
+        result["clip_start"] = camera.clip_start
+    if not isinf(camera.clip_end):
+        result["clip_end"] = camera.clip_end
+    return result
+
+
+def _material(material: d.Material) -> Json:
+    if isinstance(material, d.Lambert):
+        result: Json = {"type": "lambert", "albedo": list(material.albedo)}
+    elif isinstance(material, d.Mirror):
+        result = {"type": "mirror", "reflectance": list(material.reflectance)}
+    elif isinstance(material, d.Conductor):
+        result = {"type": "conductor", "alpha": material.alpha}
+        if material.f0 is not None:
+            result["f0"] = list(material.f0)
+        else:
+            result["eta"], result["k"] = list(material.eta), list(material.k)
+    elif isinstance(material, d.Glass):
+        result = {"type": "glass", "ior": material.ior}
+    elif isinstance(material, d.Light):
+        result = {"type": "light", "radiance": list(material.radiance)}
+    elif isinstance(material, d.Mix):
+        result = {"type": "mix", "weight": material.weight, "a": _material(material.a), "b": _material(material.b)}
+    else:
+        result = {"type": "null"}
+    emission = getattr(material, "emission", d.BLACK)
+    if emission != d.BLACK:
+        result["emission"] = list(emission)
+    return result
+
+
+def _radius(lamp: d.PointLight | d.SpotLight) -> Json:
+    return {"radius": lamp.radius} if lamp.radius > 0.0 else {}
+
+
+def _point(lamp: d.PointLight) -> Json:
+    return {"type": "point", "position": list(lamp.position), "intensity": list(lamp.intensity), **_radius(lamp)}
+
+
+def _spot(lamp: d.SpotLight) -> Json:
+    return {
+        "type": "spot",
+        "position": list(lamp.position),
+        "direction": list(lamp.direction),
+        "intensity": list(lamp.intensity),
+        "angle": lamp.angle,
+        "blend": lamp.blend,
+        **_radius(lamp),
+    }
+
+
+def _sun(lamp: d.SunLight) -> Json:
+    return {
+        "type": "sun",
+        "direction": list(lamp.direction),
+        "irradiance": list(lamp.irradiance),
+        "angle": lamp.angle,
+    }
+
+
+def _area(lamp: d.AreaLight) -> Json:
+    return {
+        "type": "area",
+        "to_world": _numbers(lamp.to_world),
+        "size": list(lamp.size),
+        "shape": "ellipse" if lamp.ellipse else "rectangle",
+        "radiance": list(lamp.radiance),
+    }
+
+
+_LAMPS: dict[type, Callable[[Any], Json]] = {
+    d.PointLight: _point,
+    d.SpotLight: _spot,
+    d.SunLight: _sun,
+    d.AreaLight: _area,
+}

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panels: Blender's own that apply to us, and ours."""
+
+from . import compatible, light, material, object, render, view_layer, world
+
+_PARTS = (compatible, render, view_layer, object, light, material, world)
+
+
+def register() -> None:
+    for part in _PARTS:
+        part.register()
+
+
+def unregister() -> None:
+    for part in reversed(_PARTS):
+        part.unregister()

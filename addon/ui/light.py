@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+import bpy
+
+from .panel import GlimmerPanel
+
+# What of a lamp is rendered, by its type; names that a version of Blender lacks are left out.
+_PROPERTIES = {
+    "POINT": ("shadow_soft_size",),
+    "SPOT": ("shadow_soft_size", "spot_size", "spot_blend"),
+    "SUN": ("angle",),
+    "AREA": ("shape", "size", "size_y"),
+}
+
+
+class GLIMMER_PT_light(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Light"
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.light is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, light = self.layout, context.light
+        layout.row().prop(light, "type", expand=True)
+        layout.use_property_split = True
+        layout.prop(light, "color")
+        layout.prop(light, "energy", text="Strength" if light.type == "SUN" else "Power")
+        for name in ("exposure", "normalize", *_PROPERTIES[light.type]):
+            if name == "size_y" and light.shape not in ("RECTANGLE", "ELLIPSE"):
+                continue
+            if name in light.bl_rna.properties:
+                text = "Radius" if name == "shadow_soft_size" else None
+                layout.prop(light, name, text=text)
+
+
+def register() -> None:
+    bpy.utils.register_class(GLIMMER_PT_light)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(GLIMMER_PT_light)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+import bpy
+
+from .compatible import ENGINE
+
+
+class GlimmerPanel:
+    """A panel of the properties editor that shows when Glimmer is the engine."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    COMPAT_ENGINES = {ENGINE}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.engine == ENGINE
+
+
+def draw_node_input(layout: bpy.types.UILayout, tree: bpy.types.NodeTree, name: str) -> None:
+    """An input of the output node, with the nodes behind it, as Blender's own material panels show it."""
+    output = tree.get_output_node("CYCLES")
+    socket = None if output is None else output.inputs.get(name)
+    if socket is None:
+        layout.label(text="No output node")
+        return
+    layout.template_node_view(tree, output, socket)
