@@ -56,7 +56,7 @@ def lay_out(parameters: FieldParameters) -> FieldLayout:
     size = 1 - parameters.mutation_size * random(_SIZE)
     follow = np.arctan(np.hypot(slope_x, slope_y)) * parameters.hill_follow
     downhill = np.arctan2(-slope_y, -slope_x)
-    rotation = _lean(downhill, follow) @ _lean(direction, tilt) @ _turn(turn)
+    rotation = _product(_product(_lean(downhill, follow), _lean(direction, tilt)), _turn(turn))
 
     # The last choice can only come up by rounding of a number close to 1.
     prototypes = np.minimum((random(_PROTOTYPE) * parameters.prototypes).astype(np.int32), parameters.prototypes - 1)
@@ -126,6 +126,11 @@ def _turn(angle: Floats) -> Floats:
     """(n, 3, 3): rotations about the z axis."""
     c, s, zero, one = np.cos(angle), np.sin(angle), np.zeros_like(angle), np.ones_like(angle)
     return np.moveaxis(np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]]), 2, 0)
+
+
+def _product(a: Floats, b: Floats) -> Floats:
+    """a @ b for (n, 3, 3), to the same last bit wherever the arrays lie in memory: matmul may take another route."""
+    return np.asarray(np.einsum("nij,njk->nik", a, b))
 
 
 def _euler(rotation: Floats) -> Floats:
