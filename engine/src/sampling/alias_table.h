@@ -13,6 +13,7 @@ namespace glimmer {
 struct AliasSample {
     uint32_t index;
     float pmf;
+    float rest; ///< what the choice left of the random number: uniform in [0, 1) again, with fewer digits
 };
 
 /// Walker's alias method as built by Vose 1991. An entry of weight 0 is never drawn. The probability of an entry is its
@@ -68,8 +69,11 @@ class AliasTable {
         const double scaled = (static_cast<double>(u) + static_cast<double>(fine) * 0x1p-24) * n;
         const auto cell = std::min(static_cast<uint32_t>(scaled), static_cast<uint32_t>(entries_.size() - 1));
         const Entry &entry = entries_[cell];
-        const uint32_t index = scaled - cell < static_cast<double>(entry.threshold) ? cell : entry.alias;
-        return {index, entries_[index].pmf};
+        const double part = scaled - cell, threshold = static_cast<double>(entry.threshold);
+        const bool own = part < threshold;
+        const double rest = own ? part / threshold : (part - threshold) / (1 - threshold);
+        const uint32_t index = own ? cell : entry.alias;
+        return {index, entries_[index].pmf, std::min(static_cast<float>(rest), 0x1.fffffep-1f)};
     }
 
   private:

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bsdf/bsdf.h"
+#include "bsdf/glass.h"
+#include "probe.h"
+
+#include <vector>
+
+using namespace glimmer;
+using namespace glimmer::probe;
+
+struct probe_lobe {
+    int32_t type; // 0 Lambert, 1 mirror, 2 conductor, 3 report metal
+    int32_t use_f0, masking;
+    float weight, alpha;
+    float color[3], eta[3], k[3], f0[3];
+};
+
+static std::vector<WeightedLobe> make(const probe_lobe *lobes, uint64_t count) {
+    std::vector<WeightedLobe> out;
+    for (uint64_t i = 0; i < count; ++i) {
+        const probe_lobe &l = lobes[i];
+        Lobe lobe;
+        if (l.type == 0)
+            lobe = Lambert{load_rgb(l.color)};
+        else if (l.type == 1)
+            lobe = Mirror{load_rgb(l.color)};
+        else if (l.type == 2)
+            lobe = Conductor{l.alpha,       l.use_f0 != 0,  load_rgb(l.eta),
+                             load_rgb(l.k), load_rgb(l.f0), static_cast<Masking>(l.masking)};
+        else
+            lobe = ReportMetal{load_rgb(l.color), load_rgb(l.f0), l.alpha};
+        out.push_back({lobe, l.weight, 0});
+    }
+    set_selection(out);
+    return out;
+}
+
+/// wo [3]; wi [n, 3]; f [n, 3], pdf [n].
+PROBE void probe_bsdf_eval(const probe_lobe *lobes, uint64_t count, const float *wo, const float *wi, uint64_t n,
+                           float *f, float *pdf_out) {
+    const std::vector<WeightedLobe> bsdf = make(lobes, count);
+    for (uint64_t i = 0; i < n; ++i) {
+        store(f + 3 * i, eval(Bsdf(bsdf), load3(wo), load3(wi + 3 * i)));
+        pdf_out[i] = pdf(Bsdf(bsdf), load3(wo), load3(wi + 3 * i));
+    }
+}
+
+/// result [n]: 0 nothing, 1 smooth, 2 specular.
+PROBE void probe_bsdf_sample(const probe_lobe *lobes, uint64_t count, const float *wo, const float *u_lobe,
+                             const float *u, uint64_t n, float *wi, float *weight, float *pdf_out, int32_t *result) {
+    const std::vector<WeightedLobe> bsdf = make(lobes, count);
+    for (uint64_t i = 0; i < n; ++i) {
+        const auto s = sample(Bsdf(bsdf), load3(wo), u_lobe[i], load2(u + 2 * i));
+        result[i] = !s ? 0 : s->specular ? 2 : 1;
+        if (!s)
+            continue;
+        store(wi + 3 * i, s->wi);
+        store(weight + 3 * i, s->weight);
+        pdf_out[i] = s->pdf;
+    }
+}
+
+/// select [count], albedo [3], flags [2]: is_specular, has_specular.
+PROBE void probe_bsdf_describe(const probe_lobe *lobes, uint64_t count, float *select, float *albedo_out,
+                               int32_t *flags) {
+    const std::vector<WeightedLobe> bsdf = make(lobes, count);
+    for (uint64_t i = 0; i < count; ++i)
+        select[i] = bsdf[i].select;
+    store(albedo_out, albedo(Bsdf(bsdf)));
+    flags[0] = is_specular(Bsdf(bsdf));
+    flags[1] = has_specular(Bsdf(bsdf));
+}
+
+/// kind: 0 conductor, 1 dielectric, 2 Schlick from f0 = eta, 3 dielectric by Schlick.
+PROBE void probe_fresnel(int kind, const float *cos_i, const float *eta, const float *k, uint64_t n, float *out) {
+    for (uint64_t i = 0; i < n; ++i)
+        out[i] = kind == 0   ? fresnel_conductor(cos_i[i], eta[i], k[i])
+                 : kind == 1 ? fresnel_dielectric(cos_i[i], eta[i])
+                 : kind == 2 ? fresnel_schlick(cos_i[i], Rgb(eta[i])).r
+                             : fresnel_dielectric_schlick(cos_i[i], eta[i]);
+}
+
+PROBE void probe_ggx_d(const float *h, float alpha, uint64_t n, float *out) {
+    for (uint64_t i = 0; i < n; ++i)
+        out[i] = ggx_d(load3(h + 3 * i), alpha);
+}
+
+PROBE void probe_glass(const float *wo, const float *eta, int schlick, const float *u, uint64_t n, float *wi,
+                       float *weight, float *probability, int32_t *transmitted) {
+    for (uint64_t i = 0; i < n; ++i) {
+        const GlassSample s = sample_glass(load3(wo + 3 * i), eta[i], schlick != 0, u[i]);
+        store(wi + 3 * i, s.wi);
+        store(weight + 3 * i, s.weight);
+        probability[i] = s.probability;
+        transmitted[i] = s.transmitted;
+    }
+}
