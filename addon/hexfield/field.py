@@ -142,11 +142,11 @@ def _fill_plate(mesh: Any, parameters: FieldParameters, index: int, materials: l
     faces = np.split(plate.face_vertices, plate.face_starts[1:])
     mesh.clear_geometry()
     mesh.from_pydata(plate.vertices.tolist(), [], [face.tolist() for face in faces])
-    mesh.polygons.foreach_set("material_index", plate.slots)
-    mesh.polygons.foreach_set("use_smooth", plate.smooth)
-    mesh.materials.clear()
+    mesh.materials.clear()  # and with them the faces' slots
     for material in materials:
         mesh.materials.append(material)
+    mesh.polygons.foreach_set("material_index", plate.slots)
+    mesh.polygons.foreach_set("use_smooth", plate.smooth)
     mesh.update()
 
 

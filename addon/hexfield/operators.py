@@ -58,7 +58,8 @@ def default_materials() -> tuple[Any, Any]:
 
 def metal(name: str, color: tuple[float, float, float], roughness: float) -> Any:
     material = bpy.data.materials.new(name)
-    material.use_nodes = True
+    if bpy.app.version < (5, 0):  # from then on always
+        material.use_nodes = True
     shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
     shader.inputs["Base Color"].default_value = (*color, 1.0)
     shader.inputs["Metallic"].default_value = 1.0

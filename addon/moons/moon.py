@@ -68,7 +68,8 @@ def unit_sphere() -> Any:
 def light_material(name: str, color: tuple[float, float, float], strength: float) -> Any:
     material = bpy.data.materials.new(name)
     material[_MATERIAL_MARK] = True
-    material.use_nodes = True
+    if bpy.app.version < (5, 0):  # from then on always
+        material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
     emission = tree.nodes.new("ShaderNodeEmission")
@@ -84,7 +85,7 @@ def light_material(name: str, color: tuple[float, float, float], strength: float
 def emission_node(obj: Any) -> Any:
     """The Emission node of a moon, or None if the object is no moon."""
     material = obj.active_material if obj is not None and obj.type == "MESH" else None
-    if material is None or not material.use_nodes or _MATERIAL_MARK not in material:
+    if material is None or material.node_tree is None or _MATERIAL_MARK not in material:
         return None
     return next((node for node in material.node_tree.nodes if node.type == "EMISSION"), None)
 

@@ -1,0 +1,458 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks of hexagon fields and moons inside a Blender: run by test_hexfield.py, one process a host.
+
+    blender -b --python hexfield_checks.py -- OUT.json     or     python hexfield_checks.py OUT.json
+
+Every function of CHECKS starts from an empty file. OUT.json holds "" or a traceback for each. Only hexfield and moons
+are registered, so that nothing here depends on the engine's library.
+"""
+
+import importlib
+import json
+import math
+import sys
+import tempfile
+import time
+import traceback
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+ADDON = Path(__file__).resolve().parents[2] / "addon"
+
+
+def _load(name: str) -> Any:
+    """A module of the add-on, without the add-on's own registration."""
+    if "glimmer" not in sys.modules:
+        package = types.ModuleType("glimmer")
+        package.__path__ = [str(ADDON)]
+        sys.modules["glimmer"] = package
+    return importlib.import_module(f"glimmer.{name}")
+
+
+FieldParameters = _load("hexfield.parameters").FieldParameters
+layout_of = _load("hexfield.layout").lay_out
+field = _load("hexfield.field")
+export_instances = _load("hexfield.export").export_instances
+node_group = _load("hexfield.node_group")
+
+
+def new_field(**changes: Any) -> Any:
+    parameters = FieldParameters(**{"rings": 4, "mutation_turn": 0.3, "mutation_size": 0.2, **changes})
+    return field.create("Field", parameters, collection=bpy.context.scene.collection)
+
+
+def evaluated(obj: Any) -> tuple[Any, Any]:
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    depsgraph.update()
+    return obj.evaluated_get(depsgraph), depsgraph
+
+
+def loop_instances(obj: Any, depsgraph: Any) -> dict[str, Any]:
+    found: dict[str, list[Any]] = {}
+    for instance in depsgraph.object_instances:
+        if instance.is_instance and instance.parent.original == obj:
+            found.setdefault(instance.object.original.name, []).append(np.array(instance.matrix_world))
+    return {name: np.array(matrices) for name, matrices in found.items()}
+
+
+def assert_export_is_the_loop(obj: Any) -> int:
+    """Returns the number of plates. float32 matrices of Blender: 1e-6 of the largest number in them."""
+    source, depsgraph = evaluated(obj)
+    exported = {prototype.original.name: matrices for prototype, matrices in export_instances(source, depsgraph)}
+    looped = loop_instances(obj, depsgraph)
+    assert set(exported) == set(looped), (sorted(exported), sorted(looped))
+    for name, matrices in looped.items():
+        assert exported[name].dtype == np.float64
+        assert exported[name].shape == matrices.shape
+        assert np.abs(exported[name] - matrices).max() <= 1e-6 * np.abs(matrices).max()
+    return sum(map(len, looped.values()))
+
+
+def plates_of(obj: Any) -> Any:
+    modifier = node_group.find_modifier(obj)
+    return modifier[node_group.plates_socket(modifier.node_group)]
+
+
+def points_of(obj: Any) -> Any:
+    values = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def assert_points(obj: Any, **changes: Any) -> None:
+    parameters = FieldParameters(**{"rings": 4, "mutation_turn": 0.3, "mutation_size": 0.2, **changes})
+    np.testing.assert_allclose(points_of(obj), layout_of(parameters).positions, rtol=1e-6, atol=1e-5)
+
+
+def ours() -> tuple[int, int, int]:
+    """How many collections of prototypes, objects and meshes the file has."""
+    return (
+        len([c for c in bpy.data.collections if "glimmer_plates" in c]),
+        len(bpy.data.objects),
+        len(bpy.data.meshes),
+    )
+
+
+# ---- Checks
+
+
+def export_matches_the_loop() -> None:
+    obj = new_field(rings=81, hill_follow=0.7, mutation_tilt=0.4)
+    obj.location, obj.rotation_euler, obj.scale = (30, -20, 5), (0.1, 0.2, 0.3), (1.5, 0.7, 1.2)
+    assert assert_export_is_the_loop(obj) == 19927
+    for count in (1, 3, 20):
+        obj.glimmer_field.prototypes = count
+        assert assert_export_is_the_loop(obj) == 19927
+
+
+def export_is_quick() -> None:
+    source, depsgraph = evaluated(new_field(rings=81))
+    seconds = []
+    for _ in range(5):
+        start = time.process_time()
+        export_instances(source, depsgraph)
+        seconds.append(time.process_time() - start)
+    assert min(seconds) < 0.1, seconds
+
+
+def export_declines_what_it_cannot_know() -> None:
+    obj = new_field()
+    obj.modifiers.new("More", "NODES")
+    assert export_instances(*evaluated(obj)) is None
+    obj.modifiers.remove(obj.modifiers["More"])
+    assert export_instances(*evaluated(obj)) is not None
+    obj.modifiers[0].show_viewport = False
+    assert export_instances(*evaluated(obj)) is None
+    cube = bpy.data.objects.new("Plain", bpy.data.meshes.new("Plain"))
+    bpy.context.scene.collection.objects.link(cube)
+    assert export_instances(*evaluated(cube)) is None
+    empty = bpy.data.objects.new("Empty", None)
+    bpy.context.scene.collection.objects.link(empty)
+    assert export_instances(*evaluated(empty)) is None
+
+
+def empty_field() -> None:
+    obj = new_field(rings=2, clearing=50.0)
+    assert len(obj.data.vertices) == 0
+    assert export_instances(*evaluated(obj)) == []
+    obj.glimmer_field.clearing = 0.0
+    assert assert_export_is_the_loop(obj) == 19
+
+
+def every_parameter_is_live() -> None:
+    """Changing a property changes what the field shows: points, plates or both, as the table says."""
+    parameters = _load("hexfield.parameters")
+    extent_of = {"radius": "RADIUS"}
+    for name, control in parameters.controls():
+        obj = new_field(mutation_shape=0.1, mutation_bevel=0.1, extent=extent_of.get(name, "RINGS"))
+        group = obj.glimmer_field
+        before = [matrices.copy() for _, matrices in export_instances(*evaluated(obj))]
+        plates = [np.array([v.co for v in p.data.vertices]) for p in field.prototypes(plates_of(obj))]
+        if control.choices:
+            setattr(group, name, "RADIUS")
+        elif isinstance(getattr(group, name), int):
+            setattr(group, name, getattr(group, name) + 1)
+        else:
+            setattr(group, name, 0.6 * getattr(group, name) + 0.1)
+        after = [matrices for _, matrices in export_instances(*evaluated(obj))]
+        new_plates = [np.array([v.co for v in p.data.vertices]) for p in field.prototypes(plates_of(obj))]
+        same_layout = len(before) == len(after) and all(map(np.array_equal, before, after))
+        same_plates = len(plates) == len(new_plates) and all(map(np.array_equal, plates, new_plates))
+        # A clearing of 0.1 takes the plate in the middle.
+        assert same_layout != bool(control.part & parameters.Part.LAYOUT), name
+        assert same_plates != bool(control.part & parameters.Part.PLATES), name
+
+
+def materials_reach_the_plates() -> None:
+    obj = new_field()
+    top, bevel = bpy.data.materials.new("Top"), bpy.data.materials.new("Bevel")
+    obj.glimmer_field.plate_material = top
+    obj.glimmer_field.bevel_material = bevel
+    for prototype in field.prototypes(plates_of(obj)):
+        assert list(prototype.data.materials) == [top, bevel]
+        assert {polygon.material_index for polygon in prototype.data.polygons} == {0, 1}
+        assert not prototype.data.validate()
+
+
+def fields_share_plates_until_they_differ() -> None:
+    one, two = new_field(), new_field(seed=0, rings=2)
+    assert plates_of(one) == plates_of(two)
+    assert ours()[0] == 1
+    two.glimmer_field.thickness = 2.0
+    assert plates_of(one) != plates_of(two)
+    assert {round(min(v.co.z for v in p.data.vertices), 4) for p in plates_of(one).objects} == {-0.6}
+    assert {round(min(v.co.z for v in p.data.vertices), 4) for p in plates_of(two).objects} == {-2.0}
+    assert_export_is_the_loop(one)
+    assert_export_is_the_loop(two)
+    two.glimmer_field.thickness = one.glimmer_field.thickness
+    assert plates_of(one) == plates_of(two)
+    assert ours()[0] == 1, "the plates that nobody uses are still there"
+    assert len([g for g in bpy.data.node_groups if node_group.NAME in g.name]) == 1
+
+
+def copies_live_their_own_life() -> None:
+    one = new_field()
+    full, linked = one.copy(), one.copy()
+    full.data = one.data.copy()
+    for obj in (full, linked):
+        bpy.context.scene.collection.objects.link(obj)
+    before = points_of(one)
+    full.glimmer_field.seed = 7
+    linked.glimmer_field.seed = 8
+    assert np.array_equal(points_of(one), before)
+    assert_points(full, seed=7)
+    assert_points(linked, seed=8)
+    assert_export_is_the_loop(full)
+    assert_export_is_the_loop(linked)
+
+
+def deleted_fields_leave_nothing() -> None:
+    start = ours()
+    one, two = new_field(), new_field(thickness=1.0)
+    for obj in (one, two):
+        mesh = obj.data
+        bpy.data.objects.remove(obj)
+        bpy.data.meshes.remove(mesh)
+    with tempfile.TemporaryDirectory() as folder:
+        bpy.ops.wm.save_as_mainfile(filepath=str(Path(folder) / "swept.blend"), copy=True)
+    assert ours() == start, ours()
+
+
+def files_keep_fields() -> None:
+    obj = new_field(seed=3, hill_height=2.0)
+    name, before = obj.name, points_of(obj)
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / "kept.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        assert name not in bpy.data.objects
+        bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects[name]
+    assert np.array_equal(points_of(obj), before)
+    assert obj.glimmer_field.enabled
+    assert obj.glimmer_field.seed == 3
+    assert_export_is_the_loop(obj)
+    obj.glimmer_field.seed = 4
+    assert_points(obj, seed=4, hill_height=2.0)
+    assert ours()[0] == 1
+
+
+def undo_takes_back_a_change() -> None:
+    # The background has no undo stack of its own accord.
+    bpy.ops.ed.undo_push(message="Start")
+    bpy.ops.glimmer.add_hexagon_field(rings=4)
+    bpy.ops.ed.undo_push(message="Add")
+    bpy.data.objects["Hexagon Field"].glimmer_field.seed = 5
+    bpy.data.objects["Hexagon Field"].glimmer_field.thickness = 3.0
+    changed = points_of(bpy.data.objects["Hexagon Field"])
+    bpy.ops.ed.undo_push(message="Change")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Hexagon Field"]
+    assert obj.glimmer_field.seed == 0
+    assert not np.array_equal(points_of(obj), changed)
+    assert {round(min(v.co.z for v in p.data.vertices), 4) for p in plates_of(obj).objects} == {-0.6}
+    assert_export_is_the_loop(obj)
+    bpy.ops.ed.redo()
+    obj = bpy.data.objects["Hexagon Field"]
+    assert np.array_equal(points_of(obj), changed)
+    assert {round(min(v.co.z for v in p.data.vertices), 4) for p in plates_of(obj).objects} == {-3.0}
+    assert_export_is_the_loop(obj)
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    assert "Hexagon Field" not in bpy.data.objects
+
+
+class _Probe(bpy.types.RenderEngine):
+    """Notes what an engine would see of a field, frame by frame."""
+
+    bl_idname = "GLIMMER_PROBE"
+    bl_label = "Probe"
+    seen: list[tuple[int, float, float]] = []
+
+    def update(self, _data: Any, depsgraph: Any) -> None:
+        for source in depsgraph.objects:
+            if source.original.type == "MESH" and source.original.glimmer_field.enabled:
+                exported = export_instances(source, depsgraph)
+                looped = loop_instances(source.original, depsgraph)
+                for prototype, matrices in exported:
+                    assert np.abs(looped[prototype.original.name] - matrices).max() < 1e-5
+                top = max(matrices[:, 2, 3].max() for _, matrices in exported)
+                bottom = min(vertex.co.z for vertex in exported[0][0].data.vertices)
+                self.seen.append((depsgraph.scene.frame_current, float(top), float(bottom)))
+
+    def render(self, _depsgraph: Any) -> None:
+        self.end_result(self.begin_result(0, 0, 8, 8))
+
+
+def animations_are_rendered() -> None:
+    """Through the handler, for the layout and for the plates, in an animation and in a single frame."""
+    obj = new_field(mutation_height=0.0)
+    for frame, height, thickness in ((1, 0.0, 1.0), (5, 4.0, 2.0)):
+        obj.glimmer_field.hill_height, obj.glimmer_field.thickness = height, thickness
+        obj.glimmer_field.keyframe_insert("hill_height", frame=frame)
+        obj.glimmer_field.keyframe_insert("thickness", frame=frame)
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 8
+    scene.frame_start, scene.frame_end = 1, 5
+    scene.frame_set(1)
+    bpy.utils.register_class(_Probe)
+    try:
+        scene.render.engine = _Probe.bl_idname
+        _Probe.seen.clear()
+        with tempfile.TemporaryDirectory() as folder:
+            scene.render.filepath = str(Path(folder) / "frame")
+            bpy.ops.render.render(animation=True)
+        assert [frame for frame, _, _ in _Probe.seen] == [1, 2, 3, 4, 5]
+        curves = {frame: (top, bottom) for frame, top, bottom in _Probe.seen}
+        shape = layout_of(FieldParameters(rings=4, hill_height=1.0, mutation_height=0.0)).positions[:, 2].max()
+        assert curves[1] == (0.0, -1.0)
+        assert math.isclose(curves[5][0], 4 * shape, rel_tol=1e-5)
+        assert math.isclose(curves[5][1], -2, rel_tol=1e-6)
+        assert math.isclose(curves[3][0], 2 * shape, rel_tol=1e-5)
+        assert math.isclose(curves[3][1], -1.5, rel_tol=1e-6)
+        assert curves[1][0] < curves[2][0] < curves[3][0] < curves[4][0] < curves[5][0]
+        _Probe.seen.clear()
+        scene.frame_set(4)
+        bpy.ops.render.render()
+        assert _Probe.seen == [(4, *curves[4])]
+    finally:
+        scene.render.engine = "CYCLES"
+        bpy.utils.unregister_class(_Probe)
+    assert ours()[0] == 1
+
+
+def cycles_renders_the_plates() -> None:
+    """Seen from above, flat plates cover 3 R^2 / spacing^2 of the plane."""
+    light = bpy.data.materials.new("Light")
+    if bpy.app.version < (5, 0):
+        light.use_nodes = True
+    light.node_tree.nodes.clear()
+    emission = light.node_tree.nodes.new("ShaderNodeEmission")
+    output = light.node_tree.nodes.new("ShaderNodeOutputMaterial")
+    light.node_tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    none = dict.fromkeys(("hill_height", "mutation_height", "mutation_tilt", "mutation_turn", "mutation_size"), 0.0)
+    none |= {"mutation_shape": 0.0, "mutation_bevel": 0.0}
+    gap = 0.4
+    obj = new_field(rings=20, gap=gap, bevel_width=0.0, **none)
+    obj.glimmer_field.plate_material = light
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.data.type, camera.data.ortho_scale = "ORTHO", 30.0
+    camera.location.z = 10
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.engine = "CYCLES"
+    scene.render.resolution_x = scene.render.resolution_y = 64
+    scene.render.resolution_percentage = 100
+    scene.cycles.samples, scene.cycles.use_denoising = 16, False
+    scene.cycles.use_adaptive_sampling = False
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_depth = "32"
+    with tempfile.TemporaryDirectory() as folder:
+        scene.render.filepath = str(Path(folder) / "cover.exr")
+        bpy.ops.render.render(write_still=True)
+        image = bpy.data.images.load(scene.render.filepath)
+        pixels = np.empty(64 * 64 * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+    covered = float(pixels.reshape(-1, 4)[:, 0].mean())
+    expected = 3 / (math.sqrt(3) + gap) ** 2
+    # Points of a picture are at most as spread as independent ones.
+    sigma = math.sqrt(expected * (1 - expected) / (64 * 64 * 16))
+    assert abs(covered - expected) < 4 * sigma, (covered, expected, sigma)
+
+
+def operators_add_field_and_moons() -> None:
+    moon = _load("moons.moon")
+    scene = bpy.context.scene
+    scene.cursor.location = (1, 2, 3)
+    assert bpy.ops.glimmer.add_hexagon_field(rings=2, seed=9, thickness=0.3) == {"FINISHED"}
+    obj = bpy.context.object
+    assert tuple(obj.location) == (1, 2, 3)
+    assert obj.glimmer_field.seed == 9
+    assert len(obj.data.vertices) == 19
+    assert all(field.prototypes(plates_of(obj))[0].data.materials)
+    assert bpy.ops.glimmer.add_moon(radius=2.5, color=(1, 0, 0.5), radiance=7) == {"FINISHED"}
+    red = bpy.context.object
+    assert math.isclose(red.glimmer_moon.radius, 2.5)
+    red.glimmer_moon.radius = 3.0
+    assert tuple(red.scale) == (3, 3, 3)
+    node = moon.emission_node(red)
+    assert tuple(node.inputs["Color"].default_value) == (1, 0, 0.5, 1)
+    assert node.inputs["Strength"].default_value == 7
+    assert moon.emission_node(obj) is None
+    assert bpy.ops.glimmer.add_five_moons() == {"FINISHED"}
+    five = [o for o in bpy.context.selected_objects if moon.emission_node(o)]
+    assert len(five) == 5
+    assert len({o.data.name for o in [*five, red]}) == 1, "moons share their mesh"
+    distance = [vertex.co.length for vertex in red.data.vertices]
+    assert max(distance) - min(distance) < 1e-6
+    assert all(polygon.normal.dot(polygon.center) > 0 and polygon.use_smooth for polygon in red.data.polygons)
+    try:
+        bpy.ops.glimmer.add_hexagon_field(extent="RADIUS", radius=1e6)
+    except RuntimeError as error:
+        assert "radius is 1e+06; allowed with plates of this size: 0 to 775" in str(error)
+    else:
+        raise AssertionError("a field of billions of plates was accepted")
+
+
+def registration_goes_both_ways() -> None:
+    hexfield, moons = _load("hexfield"), _load("moons")
+    handlers = bpy.app.handlers
+    before = len(handlers.frame_change_post), len(handlers.save_pre)
+    moons.unregister()
+    hexfield.unregister()
+    assert not hasattr(bpy.types.Object, "glimmer_field")
+    assert not hasattr(bpy.types.Object, "glimmer_moon")
+    assert "add_moon" not in dir(bpy.ops.glimmer)
+    assert (len(handlers.frame_change_post), len(handlers.save_pre)) == (before[0] - 1, before[1] - 1)
+    hexfield.register()
+    moons.register()
+    assert (len(handlers.frame_change_post), len(handlers.save_pre)) == before
+    assert assert_export_is_the_loop(new_field()) == 61
+
+
+CHECKS: tuple[Callable[[], None], ...] = (
+    export_matches_the_loop,
+    export_is_quick,
+    export_declines_what_it_cannot_know,
+    empty_field,
+    every_parameter_is_live,
+    materials_reach_the_plates,
+    fields_share_plates_until_they_differ,
+    copies_live_their_own_life,
+    deleted_fields_leave_nothing,
+    files_keep_fields,
+    undo_takes_back_a_change,
+    animations_are_rendered,
+    cycles_renders_the_plates,
+    operators_add_field_and_moons,
+    registration_goes_both_ways,
+)
+
+
+def main(path: str) -> None:
+    _load("hexfield").register()
+    _load("moons").register()
+    results = {}
+    for check in CHECKS:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        try:
+            check()
+            results[check.__name__] = ""
+        except Exception:  # noqa: BLE001 (whatever a check raises is its result)
+            results[check.__name__] = traceback.format_exc()
+    Path(path).write_text(json.dumps({"version": bpy.app.version_string, "results": results}))
+    _load("moons").unregister()
+    _load("hexfield").unregister()
+
+
+if __name__ == "__main__":
+    main(sys.argv[-1])
