@@ -34,7 +34,7 @@ def is_module() -> bool:
 
 def _is_called_from_script(frame: FrameType | None) -> bool:
     """Whether Python code outside of this package stands below us on the stack: it gets the exception."""
-    package = str(Path(__file__).resolve().parent)
+    package = str(Path(__file__).parent)  # unresolved, as in the code objects
     while frame is not None:
         if not frame.f_code.co_filename.startswith(package):
             return True
@@ -44,16 +44,15 @@ def _is_called_from_script(frame: FrameType | None) -> bool:
 
 def fail(engine: bpy.types.RenderEngine, message: str) -> None:
     """Ends a render that has begun and ended a result already."""
+    if engine.is_preview:
+        engine.error_set(message)
+        return
+    if bpy.app.background and not is_module() and not _is_called_from_script(sys._getframe()):
+        _exit_now(message)
+    _pending["failed"] = True
+    _process["failed"] = bpy.app.background
     engine.error_set(message)
     engine.report({"ERROR"}, f"Glimmer: {message}")
-    if engine.is_preview:
-        return
-    _pending["failed"] = True
-    if not bpy.app.background:
-        return
-    _process["failed"] = True
-    if not is_module() and not _is_called_from_script(sys._getframe()):
-        _exit_now(message)
 
 
 def _exit_now(message: str) -> None:
