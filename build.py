@@ -74,6 +74,8 @@ PACKAGES = (
     Package("libopenimageio-dev", "build", "pictures in and out of the command line"),
     Package("nlohmann-json3-dev", "build", "scene files"),
     Package("libtinyobjloader-dev", "build", ".obj meshes"),
+    Package("libcli11-dev", "build", "options of the command line"),
+    Package("fonts-dejavu-core", "build", "labels of the command line's plots"),
     Package("blender", "render", "the host"),
     Package("python3-numpy", "render", "Debian's Blender does not bring it"),
     Package("python3-venv", "test", "virtual environments of the tests"),
