@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Version, last error and the tables.
+#include "api/handles.h"
+#include "film/passes.h"
+
+namespace glimmer {
+
+namespace {
+thread_local std::string last_error;
+}
+
+glimmer_result keep_error(glimmer_result code, const char *message) noexcept {
+    try {
+        last_error = message;
+        for (char &c : last_error) // one line, whatever was in it
+            if (c == '\n')
+                c = ' ';
+    } catch (...) {
+        last_error.clear();
+    }
+    return code;
+}
+
+} // namespace glimmer
+
+extern "C" {
+
+uint32_t glimmer_abi_version(void) {
+    return GLIMMER_ABI_VERSION;
+}
+
+const char *glimmer_version(void) {
+    return GLIMMER_VERSION;
+}
+
+const char *glimmer_last_error(void) {
+    return glimmer::last_error.c_str();
+}
+
+const glimmer_pass_info_t *glimmer_pass_info(uint32_t pass) {
+    return pass < glimmer::kPasses.size() ? &glimmer::kPasses[pass] : nullptr;
+}
+
+const glimmer_integrator_info_t *glimmer_integrator_info(uint32_t index) {
+    return index < glimmer::kIntegrators.size() ? &glimmer::kIntegrators[index] : nullptr;
+}
+}

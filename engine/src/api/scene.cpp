@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes: every description is checked here, whole, before anything is kept.
+#include "api/handles.h"
+
+using namespace glimmer;
+
+namespace {
+
+constexpr double kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+SceneDescription &open_scene(glimmer_scene *scene) {
+    glimmer_scene &s = checked(scene, "scene");
+    if (s.scene)
+        fail_state("the scene is committed and cannot change; make a new one");
+    return s.description;
+}
+
+template <class T, size_t N>
+void check_each(const T (&values)[N], double low, double high, const std::string &what) {
+    for (T v : values)
+        check_range(double(v), low, high, what);
+}
+
+template <class T, size_t N>
+void check_each_least(const T (&values)[N], double low, const std::string &what) {
+    for (T v : values)
+        check_least(double(v), low, what);
+}
+
+void check_affine(const double (&m)[16], const std::string &what) {
+    for (double v : m)
+        check_finite(v, what);
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+        fail_argument(what + ": the last row must be 0 0 0 1");
+}
+
+/// Rotation and translation alone, to 1e-4: what comes out of float32 matrices passes.
+void check_rigid(const double (&m)[16], const std::string &what) {
+    check_affine(m, what);
+    const Linear l = affine_from_rows(m).linear;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j)
+            if (std::abs(dot(l.column(i), l.column(j)) - (i == j)) > 1e-4)
+                fail_argument(what + " must be rigid (rotation and translation, no scale or shear)");
+}
+
+void check_material(const SceneDescription &scene, const glimmer_material_desc &d, const std::string &what) {
+    if (uint32_t(d.type) > GLIMMER_NULL)
+        fail_argument(what + ": type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 7");
+    check_each_least(d.emission, 0, what + ": emission");
+    const bool shines = d.emission[0] > 0 || d.emission[1] > 0 || d.emission[2] > 0;
+    if (shines && (d.type == GLIMMER_GLASS || d.type == GLIMMER_LIGHT || d.type == GLIMMER_NULL))
+        fail_argument(what + ": emission is not allowed on light, glass and null");
+    switch (d.type) {
+    case GLIMMER_LAMBERT:
+        check_each(d.color, 0, 1, what + ": albedo");
+        break;
+    case GLIMMER_MIRROR:
+        check_each(d.color, 0, 1, what + ": reflectance");
+        break;
+    case GLIMMER_CONDUCTOR:
+        check_range(double(d.alpha), 0, 1, what + ": alpha");
+        if (uint32_t(d.masking) > GLIMMER_SCHLICK_GGX)
+            fail_argument(what + ": masking " + std::to_string(int(d.masking)) + " is not known; allowed: 0 to 2");
+        if (d.use_f0) {
+            check_each(d.f0, 0, 1, what + ": f0");
+        } else {
+            for (float eta : d.eta)
+                if (!(eta > 0) || !std::isfinite(eta))
+                    fail_argument(what + ": eta is " + text(double(eta)) + "; allowed: finite numbers above 0");
+            check_each_least(d.k, 0, what + ": k");
+        }
+        break;
+    case GLIMMER_GLASS:
+        if (!(d.ior > 0) || !std::isfinite(d.ior))
+            fail_argument(what + ": ior is " + text(double(d.ior)) + "; allowed: finite numbers above 0");
+        break;
+    case GLIMMER_REPORT_METAL:
+        check_each(d.color, 0, 1, what + ": albedo");
+        check_each(d.f0, 0, 1, what + ": f0");
+        check_range(double(d.alpha), 0, 1, what + ": alpha");
+        break;
+    case GLIMMER_MIX:
+        check_range(double(d.weight), 0, 1, what + ": weight");
+        for (uint32_t part : {d.a, d.b}) {
+            if (part >= scene.materials.size())
+                fail_argument(what + ": material " + std::to_string(part) + " was not added before the mix");
+            const glimmer_material_type type = scene.materials[part].type;
+            if (type == GLIMMER_LIGHT || type == GLIMMER_GLASS || type == GLIMMER_NULL)
+                fail_argument(what + ": light, glass and null cannot be mixed");
+        }
+        break;
+    case GLIMMER_LIGHT:
+        check_each_least(d.color, 0, what + ": radiance");
+        break;
+    case GLIMMER_NULL:
+        break;
+    }
+}
+
+void check_light(const glimmer_light_desc &d, const std::string &what) {
+    if (uint32_t(d.type) > GLIMMER_AREA)
+        fail_argument(what + ": type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 3");
+    check_each_least(d.color, 0, what + ": color");
+    const bool placed = d.type == GLIMMER_POINT || d.type == GLIMMER_SPOT;
+    const bool directed = d.type == GLIMMER_SPOT || d.type == GLIMMER_SUN;
+    if (placed) {
+        for (double v : d.position)
+            check_finite(v, what + ": position");
+        check_least(d.radius, 0, what + ": radius");
+    }
+    if (directed) {
+        for (double v : d.direction)
+            check_finite(v, what + ": direction");
+        if (d.direction[0] == 0 && d.direction[1] == 0 && d.direction[2] == 0)
+            fail_argument(what + ": direction is 0 0 0");
+        check_range(d.angle, 0, 180, what + ": angle");
+    }
+    if (d.type == GLIMMER_SPOT)
+        check_range(d.blend, 0, 1, what + ": blend");
+    if (d.type == GLIMMER_AREA) {
+        check_rigid(d.to_world, what + ": to_world");
+        for (double v : d.size)
+            if (!(v > 0) || !std::isfinite(v))
+                fail_argument(what + ": size is " + text(v) + "; allowed: finite numbers above 0");
+    }
+}
+
+std::vector<Affine> place_instances(const glimmer_object_desc &d, const std::string &what) {
+    const Affine to_world = affine_from_rows(d.to_world);
+    if (!d.instances)
+        return {to_world};
+    std::vector<Affine> out;
+    out.reserve(d.instance_count);
+    for (size_t i = 0; i < d.instance_count; ++i) {
+        const Affine own = d.instance_format == GLIMMER_FLOAT64
+                               ? affine_from_rows(static_cast<const double *>(d.instances) + 12 * i)
+                               : affine_from_rows(static_cast<const float *>(d.instances) + 12 * i);
+        const Affine placed = to_world * own;
+        for (const Vec3d &v : {placed.linear.rows[0], placed.linear.rows[1], placed.linear.rows[2], placed.translation})
+            if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+                fail_argument(what + ": instance " + std::to_string(i) + " has a matrix that is not finite");
+        out.push_back(placed);
+    }
+    return out;
+}
+
+} // namespace
+
+extern "C" {
+
+glimmer_result glimmer_scene_create(glimmer_scene **scene) {
+    return guarded([&] {
+        if (!scene)
+            fail_argument("scene: the output is null");
+        *scene = new glimmer_scene;
+    });
+}
+
+void glimmer_scene_destroy(glimmer_scene *scene) {
+    destroy(scene);
+}
+
+void glimmer_material_init(glimmer_material_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+    for (int c = 0; c < 3; ++c) {
+        desc->color[c] = 0.5f;
+        desc->eta[c] = 1;
+        desc->f0[c] = 0.5f;
+    }
+    desc->ior = 1.5f;
+    desc->weight = 0.5f;
+}
+
+glimmer_result glimmer_scene_add_material(glimmer_scene *scene, const glimmer_material_desc *desc, uint32_t *material) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        glimmer_material_desc defaults;
+        glimmer_material_init(&defaults);
+        MaterialDescription out;
+        static_cast<glimmer_material_desc &>(out) = checked_desc(desc, defaults, "material");
+        const std::string what = label_of("material", out.name);
+        check_material(s, out, what);
+        if (!material)
+            fail_argument(what + ": the output is null");
+        out.label = out.name ? out.name : "";
+        s.materials.push_back(std::move(out));
+        *material = uint32_t(s.materials.size() - 1);
+    });
+}
+
+void glimmer_object_init(glimmer_object_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+    std::memcpy(desc->to_world, kIdentity, sizeof kIdentity);
+}
+
+glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_object_desc *desc) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        glimmer_object_desc defaults;
+        glimmer_object_init(&defaults);
+        const glimmer_object_desc d = checked_desc(desc, defaults, "object");
+        const std::string what = label_of("object", d.name);
+        ObjectDescription out;
+        out.name = what;
+        out.mesh = checked(d.mesh, "mesh").mesh;
+        check_affine(d.to_world, what + ": to_world");
+        if (!d.materials || d.material_count < out.mesh->slot_count || d.material_count > 65536)
+            fail_argument(what + ": " + std::to_string(d.materials ? d.material_count : 0) + " material(s); its mesh needs " +
+                          std::to_string(out.mesh->slot_count));
+        for (size_t i = 0; i < d.material_count; ++i) {
+            if (d.materials[i] >= s.materials.size())
+                fail_argument(what + ": material " + std::to_string(d.materials[i]) + " was not added");
+            out.materials.push_back(d.materials[i]);
+        }
+        if (d.instances && d.instance_format != GLIMMER_FLOAT32 && d.instance_format != GLIMMER_FLOAT64)
+            fail_argument(what + ": instance_format is " + std::to_string(int(d.instance_format)) +
+                          "; allowed: float32 (0), float64 (1)");
+        if (d.instances && d.instance_count > 0xfffffff0u)
+            fail_argument(what + ": instance_count is " + std::to_string(d.instance_count) + "; allowed: up to 4294967280");
+        out.instances = place_instances(d, what);
+        if (d.object_indices)
+            out.object_indices.assign(d.object_indices, d.object_indices + out.instances.size());
+        if (out.object_indices.size() < 2)
+            out.object_indices.assign(1, d.object_indices && !out.instances.empty() ? d.object_indices[0] : d.object_index);
+        s.objects.push_back(std::move(out));
+    });
+}
+
+void glimmer_spheres_init(glimmer_spheres_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+}
+
+glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_spheres_desc *desc) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        glimmer_spheres_desc defaults;
+        glimmer_spheres_init(&defaults);
+        const glimmer_spheres_desc d = checked_desc(desc, defaults, "spheres");
+        const std::string what = label_of("spheres", d.name);
+        if (!d.centers || !d.radii)
+            fail_argument(what + ": " + (d.centers ? "radii" : "centers") + " is null");
+        if (d.count > 0xfffffff0u)
+            fail_argument(what + ": count is " + std::to_string(d.count) + "; allowed: up to 4294967280");
+        if (d.radius_count != 1 && d.radius_count != d.count)
+            fail_argument(what + ": radius_count is " + std::to_string(d.radius_count) + "; allowed: 1 or " +
+                          std::to_string(d.count));
+        if (d.material >= s.materials.size())
+            fail_argument(what + ": material " + std::to_string(d.material) + " was not added");
+        SpheresDescription out;
+        out.name = what;
+        for (size_t i = 0; i < d.count; ++i) {
+            const Vec3d c{d.centers[3 * i], d.centers[3 * i + 1], d.centers[3 * i + 2]};
+            if (!(max_abs(c) < 1e30) || std::isnan(c.x + c.y + c.z))
+                fail_argument(what + ": center " + std::to_string(i) + " is (" + text(c.x) + ", " + text(c.y) + ", " + text(c.z) +
+                              "); allowed: numbers up to 1e30");
+            out.centers.push_back(c);
+        }
+        for (size_t i = 0; i < d.radius_count; ++i) {
+            if (!(d.radii[i] > 0) || !(d.radii[i] < 1e30))
+                fail_argument(what + ": radius " + std::to_string(i) + " is " + text(d.radii[i]) +
+                              "; allowed: numbers above 0, up to 1e30");
+            out.radii.push_back(d.radii[i]);
+        }
+        out.material = d.material;
+        out.object_index = d.object_index;
+        s.spheres.push_back(std::move(out));
+    });
+}
+
+void glimmer_light_init(glimmer_light_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+    for (float &c : desc->color)
+        c = 1;
+    desc->direction[2] = -1;
+    std::memcpy(desc->to_world, kIdentity, sizeof kIdentity);
+    desc->size[0] = desc->size[1] = 1;
+}
+
+glimmer_result glimmer_scene_add_light(glimmer_scene *scene, const glimmer_light_desc *desc) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        glimmer_light_desc defaults;
+        glimmer_light_init(&defaults);
+        LightDescription out;
+        static_cast<glimmer_light_desc &>(out) = checked_desc(desc, defaults, "light");
+        check_light(out, label_of("light", out.name));
+        out.label = out.name ? out.name : "";
+        s.lights.push_back(std::move(out));
+    });
+}
+
+glimmer_result glimmer_scene_set_environment(glimmer_scene *scene, const float color[3], glimmer_image *image,
+                                             const double to_world[16]) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        if (!color)
+            fail_argument("environment: color is null");
+        EnvironmentDescription out;
+        for (int c = 0; c < 3; ++c) {
+            check_least(double(color[c]), 0, "environment: radiance");
+            out.color[c] = color[c];
+        }
+        if (image)
+            out.image = checked(image, "image").image;
+        if (to_world) {
+            double m[16];
+            std::memcpy(m, to_world, sizeof m);
+            check_rigid(m, "environment: to_world");
+            out.to_world = affine_from_rows(m).linear;
+        }
+        s.environment = std::move(out);
+    });
+}
+
+glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3], const double sigma_s[3], double g) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        if (!sigma_a || !sigma_s)
+            fail_argument("medium: " + std::string(sigma_a ? "sigma_s" : "sigma_a") + " is null");
+        for (int c = 0; c < 3; ++c) {
+            check_range(sigma_a[c], 0, 1e30, "medium: sigma_a");
+            check_range(sigma_s[c], 0, 1e30, "medium: sigma_s");
+        }
+        if (!(g > -1 && g < 1))
+            fail_argument("medium: g is " + text(g) + "; allowed: above -1, below 1");
+        s.medium = MediumDescription{{sigma_a[0], sigma_a[1], sigma_a[2]}, {sigma_s[0], sigma_s[1], sigma_s[2]}, g};
+    });
+}
+
+void glimmer_camera_init(glimmer_camera_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+    std::memcpy(desc->to_world, kIdentity, sizeof kIdentity);
+    desc->fov_x = 50;
+    desc->clip_end = HUGE_VAL;
+}
+
+glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_camera_desc *desc) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        glimmer_camera_desc defaults;
+        glimmer_camera_init(&defaults);
+        const glimmer_camera_desc d = checked_desc(desc, defaults, "camera");
+        check_rigid(d.to_world, "camera: to_world");
+        if (!(d.fov_x > 0 && d.fov_x < 180))
+            fail_argument("camera: fov_x is " + text(d.fov_x) + "; allowed: above 0, below 180 degrees");
+        for (double v : d.shift)
+            check_finite(v, "camera: shift");
+        check_least(d.lens_radius, 0, "camera: lens_radius");
+        check_least(d.focus_distance, 0, "camera: focus_distance");
+        if (d.lens_radius > 0 && d.focus_distance == 0)
+            fail_argument("camera: focus_distance is 0; a lens with a radius needs one above 0");
+        check_least(d.clip_start, 0, "camera: clip_start");
+        if (!(d.clip_end > d.clip_start))
+            fail_argument("camera: clip_end is " + text(d.clip_end) + "; allowed: above clip_start, " + text(d.clip_start));
+        s.camera = d;
+    });
+}
+
+void glimmer_film_init(glimmer_film_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+    desc->width = 480;
+    desc->height = 270;
+    desc->filter = GLIMMER_BOX;
+    desc->filter_width = 1;
+}
+
+glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_desc *desc) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        glimmer_film_desc defaults;
+        glimmer_film_init(&defaults);
+        const glimmer_film_desc d = checked_desc(desc, defaults, "film");
+        check_range(d.width, 1, 65536, "film: width");
+        check_range(d.height, 1, 65536, "film: height");
+        const bool whole = d.crop[0] == 0 && d.crop[1] == 0 && d.crop[2] == 0 && d.crop[3] == 0;
+        if (!whole && !(d.crop[0] < d.crop[2] && d.crop[2] <= d.width && d.crop[1] < d.crop[3] && d.crop[3] <= d.height))
+            fail_argument("film: crop is " + std::to_string(d.crop[0]) + " " + std::to_string(d.crop[1]) + " " +
+                          std::to_string(d.crop[2]) + " " + std::to_string(d.crop[3]) +
+                          "; allowed: x0 < x1 <= width, y0 < y1 <= height");
+        if (uint32_t(d.filter) > GLIMMER_BLACKMAN_HARRIS)
+            fail_argument("film: filter " + std::to_string(int(d.filter)) + " is not known; allowed: 0, 1");
+        if (!(d.filter_width > 0 && d.filter_width <= 64))
+            fail_argument("film: filter_width is " + text(double(d.filter_width)) + "; allowed: above 0, up to 64 pixels");
+        s.film = d;
+    });
+}
+
+glimmer_result glimmer_scene_commit(glimmer_scene *scene, uint32_t) {
+    return guarded([&] {
+        SceneDescription &description = open_scene(scene);
+        auto built = std::make_shared<const Scene>(description);
+        std::string warnings;
+        for (const std::string &w : built->warnings)
+            warnings += (warnings.empty() ? "" : "\n") + w;
+        scene->warnings = std::move(warnings);
+        scene->scene = std::move(built);
+        description = {};
+    });
+}
+
+const char *glimmer_scene_warnings(glimmer_scene *scene) {
+    return scene && scene->magic == glimmer_scene::kMagic ? scene->warnings.c_str() : "";
+}
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/accel.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+struct Context {
+    RTCIntersectContext embree; // first: Embree hands back a pointer to it
+    uint32_t ignored_sphere;
+};
+
+float round_down(double x) {
+    return std::nextafter(float(x), -kInfinity);
+}
+float round_up(double x) {
+    return std::nextafter(float(x), kInfinity);
+}
+
+void sphere_bounds(const RTCBoundsFunctionArguments *args) {
+    const Sphere &s = (*static_cast<const std::vector<Sphere> *>(args->geometryUserPtr))[args->primID];
+    RTCBounds &b = *args->bounds_o;
+    b.lower_x = round_down(s.center.x - s.radius);
+    b.lower_y = round_down(s.center.y - s.radius);
+    b.lower_z = round_down(s.center.z - s.radius);
+    b.upper_x = round_up(s.center.x + s.radius);
+    b.upper_y = round_up(s.center.y + s.radius);
+    b.upper_z = round_up(s.center.z + s.radius);
+}
+
+/// The first root within the ray's range, as a float that stays inside it.
+std::optional<float> first_root(const Sphere &sphere, const RTCRay &ray) {
+    const auto roots =
+        intersect_sphere(sphere, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z});
+    if (!roots)
+        return std::nullopt;
+    if (roots->near > double(ray.tnear) && roots->near <= double(ray.tfar))
+        return float(roots->near);
+    if (roots->far > double(ray.tnear) && roots->far <= double(ray.tfar))
+        return float(roots->far);
+    return std::nullopt;
+}
+
+void sphere_intersect(const RTCIntersectFunctionNArguments *args) {
+    if (!args->valid[0])
+        return;
+    auto *hit = reinterpret_cast<RTCRayHit *>(args->rayhit);
+    const Sphere &s = (*static_cast<const std::vector<Sphere> *>(args->geometryUserPtr))[args->primID];
+    if (const auto t = first_root(s, hit->ray)) {
+        hit->ray.tfar = *t;
+        hit->hit.primID = args->primID;
+        hit->hit.geomID = args->geomID;
+        hit->hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
+void sphere_occluded(const RTCOccludedFunctionNArguments *args) {
+    if (!args->valid[0])
+        return;
+    if (reinterpret_cast<const Context *>(args->context)->ignored_sphere == args->primID)
+        return;
+    auto *ray = reinterpret_cast<RTCRay *>(args->ray);
+    const Sphere &s = (*static_cast<const std::vector<Sphere> *>(args->geometryUserPtr))[args->primID];
+    if (first_root(s, *ray))
+        ray->tfar = -kInfinity;
+}
+
+RTCRay embree_ray(const Ray &ray) {
+    RTCRay r{};
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+    r.tnear = 0;
+    r.tfar = ray.t_max;
+    r.mask = ~0u;
+    return r;
+}
+
+} // namespace
+
+Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres)
+    : instances_(std::move(instances)), spheres_(std::move(spheres)) {
+    const Embree &e = embree();
+    scene_ = e.rtcNewScene(e.device);
+    e.rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    for (size_t i = 0; i < instances_.size(); ++i) {
+        const Instance &instance = instances_[i];
+        RTCGeometry geometry = e.rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_INSTANCE);
+        e.rtcSetGeometryInstancedScene(geometry, instance.mesh->bvh());
+        float rows[12];
+        for (size_t r = 0; r < 3; ++r) {
+            rows[4 * r] = instance.linear[r].x;
+            rows[4 * r + 1] = instance.linear[r].y;
+            rows[4 * r + 2] = instance.linear[r].z;
+            rows[4 * r + 3] = instance.translation[int(r)];
+        }
+        e.rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+        e.rtcCommitGeometry(geometry);
+        e.rtcAttachGeometryByID(scene_, geometry, unsigned(i));
+        e.rtcReleaseGeometry(geometry);
+    }
+    if (!spheres_.empty()) {
+        RTCGeometry geometry = e.rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_USER);
+        e.rtcSetGeometryUserPrimitiveCount(geometry, unsigned(spheres_.size()));
+        e.rtcSetGeometryUserData(geometry, &spheres_);
+        e.rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
+        e.rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
+        e.rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+        e.rtcCommitGeometry(geometry);
+        e.rtcAttachGeometryByID(scene_, geometry, unsigned(instances_.size()));
+        e.rtcReleaseGeometry(geometry);
+    }
+    e.rtcCommitScene(scene_);
+    try {
+        e.check("the scene");
+    } catch (...) {
+        e.rtcReleaseScene(scene_);
+        throw;
+    }
+}
+
+Accel::~Accel() {
+    embree().rtcReleaseScene(scene_);
+}
+
+std::optional<Hit> Accel::intersect(const Ray &ray) const {
+    RTCRayHit query{};
+    query.ray = embree_ray(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    Context context{};
+    rtcInitIntersectContext(&context.embree);
+    context.ignored_sphere = kNone;
+    embree().rtcIntersect1(scene_, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return std::nullopt;
+    Hit hit;
+    hit.t = query.ray.tfar;
+    hit.instance = query.hit.instID[0];
+    hit.primitive = query.hit.primID;
+    hit.u = query.hit.u;
+    hit.v = query.hit.v;
+    return hit;
+}
+
+bool Accel::occluded(const Ray &ray, uint32_t ignored_sphere) const {
+    RTCRay query = embree_ray(ray);
+    Context context{};
+    rtcInitIntersectContext(&context.embree);
+    context.ignored_sphere = ignored_sphere;
+    embree().rtcOccluded1(scene_, &context.embree, &query);
+    return query.tfar < 0;
+}
+
+} // namespace glimmer

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What rays meet: mesh instances (two levels in Embree) and analytic spheres in one top-level BVH.
+#pragma once
+
+#include "geometry/mesh.h"
+#include "geometry/ray.h"
+#include "geometry/sphere.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace glimmer {
+
+/// A mesh placed in the world. `linear` and `translation` carry mesh-centred vertices to the scene's origin.
+struct Instance {
+    const Mesh *mesh;
+    std::array<Vec3f, 3> linear; ///< rows
+    Vec3f translation;
+    std::array<Vec3f, 3> normal_matrix; ///< rows; cofactors of the linear part, scaled: carries outward normals
+    uint32_t object;       ///< of the scene: holds the materials
+    uint32_t object_index; ///< for the AOV
+
+    Vec3f normal_to_world(const Vec3f &n) const {
+        return Vec3f(dot(normal_matrix[0], n), dot(normal_matrix[1], n), dot(normal_matrix[2], n));
+    }
+    Vec3f to_world(const Vec3f &v) const {
+        return Vec3f(dot(linear[0], v), dot(linear[1], v), dot(linear[2], v)) + translation;
+    }
+};
+
+class Accel {
+  public:
+    /// Builds at once. Spheres are about the scene's origin. Meshes must outlive this.
+    Accel(std::vector<Instance> instances, std::vector<Sphere> spheres);
+    ~Accel();
+    Accel(const Accel &) = delete;
+    Accel &operator=(const Accel &) = delete;
+
+    std::optional<Hit> intersect(const Ray &ray) const;
+    /// Whether anything stands before t_max. `ignored_sphere` is looked through (the light a shadow ray aims at).
+    bool occluded(const Ray &ray, uint32_t ignored_sphere = kNone) const;
+
+    const std::vector<Instance> &instances() const { return instances_; }
+    const std::vector<Sphere> &spheres() const { return spheres_; }
+
+  private:
+    std::vector<Instance> instances_;
+    std::vector<Sphere> spheres_;
+    RTCScene scene_ = nullptr;
+};
+
+} // namespace glimmer

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A triangle mesh about its own centre, shared by any number of instances and scenes, with the BVH that rays need.
+#pragma once
+
+#include "geometry/embree.h"
+#include "math/affine.h"
+#include "math/vec.h"
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace glimmer {
+
+class Mesh {
+  public:
+    Mesh() = default;
+    Mesh(const Mesh &) = delete;
+    Mesh &operator=(const Mesh &) = delete;
+    ~Mesh();
+
+    std::string name;
+    Vec3d center;                    ///< float64 centre of the bounds: `vertices` are relative to it
+    std::vector<Vec3f> vertices;     ///< one more than there are: Embree reads 16 bytes at the last
+    std::vector<Vec3f> normals;      ///< empty: flat
+    std::vector<Vec2f> uvs;          ///< empty: none
+    std::vector<std::array<uint32_t, 3>> triangles;
+    std::vector<uint16_t> slots;     ///< empty: all 0
+    float radius = 0;                ///< largest |coordinate| of a vertex, about the centre
+    uint16_t slot_count = 1;
+
+    uint16_t slot(uint32_t triangle) const { return slots.empty() ? uint16_t(0) : slots[triangle]; }
+    size_t bytes() const;
+
+    /// The Embree scene of this mesh, built at the first call.
+    RTCScene bvh() const;
+
+  private:
+    mutable std::once_flag built_;
+    mutable RTCScene bvh_ = nullptr;
+};
+
+} // namespace glimmer

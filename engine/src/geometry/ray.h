@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "math/vec.h"
+
+#include <cstdint>
+
+namespace glimmer {
+
+inline constexpr uint32_t kNone = 0xffffffffu;
+
+/// A half-line about the scene's origin (the camera), direction of unit length.
+struct Ray {
+    Vec3f origin, direction;
+    float t_max = kInfinity;
+};
+
+/// The closest surface on a ray: a triangle of an instance, or a sphere.
+struct Hit {
+    float t = kInfinity;
+    uint32_t instance = kNone; ///< kNone: a sphere
+    uint32_t primitive = kNone; ///< triangle of the mesh, or sphere
+    float u = 0, v = 0;         ///< barycentrics of vertices 1 and 2
+};
+
+} // namespace glimmer

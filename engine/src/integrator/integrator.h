@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every estimator of the picture offers: one camera sample at a time, from random numbers that depend on nothing but the pixel,
+// the sample and the seed.
+#pragma once
+
+#include "film/sample.h"
+#include "glimmer.h"
+#include "sampling/sampler.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace glimmer {
+
+/// Limits on scattering vertices; a limit is a bias, off by default.
+struct DepthLimits {
+    uint32_t depth = std::numeric_limits<uint32_t>::max();   ///< surface and volume
+    uint32_t scatter = std::numeric_limits<uint32_t>::max(); ///< volume alone
+};
+
+struct RayCounter {
+    uint64_t rays = 0;
+};
+
+class Integrator {
+  public:
+    virtual ~Integrator() = default;
+    /// Radiance along the camera ray of one sample. `depth_scale` turns a distance on it into one along the axis.
+    virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, RayCounter &rays) const = 0;
+    /// Names the code that runs, and what of the engine the scene does not need.
+    virtual std::string kernel() const = 0;
+};
+
+inline constexpr std::array<glimmer_integrator_info_t, 2> kIntegrators{{
+    {"path", "path tracing; the camera's segments of fog are solved light by light"},
+    {"report", "the student report's method, as a yardstick: one light, exponential free flights, balance heuristic"},
+}};
+
+/// `index` into kIntegrators.
+std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits);
+
+} // namespace glimmer

@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrator/path.h"
+
+#include "bsdf/glass.h"
+#include "integrator/mis.h"
+#include "integrator/path_state.h"
+#include "integrator/surroundings.h"
+#include "light/line_sampler.h"
+#include "medium/phase.h"
+
+#include <array>
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+constexpr uint32_t kAllLights = 16;  // up to here every light is sampled at what the camera sees
+constexpr uint32_t kManyLights = 4;  // beyond, so many choices
+constexpr size_t kBranches = 24;     // unfinished branches of one camera sample; beyond, segments are no longer split
+constexpr uint64_t kVertexGuard = 1u << 22; // of one camera sample; reached only where light is shut in without end
+
+// Stratified sample sets of the camera's own segment; everything later draws independent numbers.
+enum Set : uint32_t { kSetCollision = 2, kSetPhase, kSetLobe, kSetBsdf, kSetLine = 16, kSetLight = 80 };
+
+/// The work on one camera sample.
+class PathSample {
+  public:
+    PathSample(const Scene &scene, const DepthLimits &limits, const PathOptions &options, Sampler &sampler,
+               RayCounter &rays)
+        : scene_(scene), limits_(limits), options_(options), sampler_(sampler), rays_(rays) {
+        if (scene_.medium) {
+            const Rgb &s = scene_.medium->sigma_t;
+            sigma_ = std::min(s.r, std::min(s.g, s.b));
+        }
+    }
+
+    FilmSample run(const PathState &camera) {
+        push(camera);
+        uint64_t vertices = 0;
+        while (count_ > 0 && ++vertices < kVertexGuard)
+            follow(stack_[--count_]);
+        return result_;
+    }
+
+  private:
+    // -- One segment ---------------------------------------------------------------------------------------------
+
+    void follow(PathState state) {
+        const std::optional<Hit> hit = scene_.accel->intersect(state.ray);
+        ++rays_.rays;
+        const float end = hit ? hit->t : kInfinity;
+        const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+
+        add_lamps(state, end, fog);
+        std::optional<Interaction> surface;
+        if (hit) {
+            surface = scene_.interaction(state.ray, *hit);
+            if (state.direct_view() && state.depth == 0)
+                note_first_surface(*surface);
+            add_emission(state, *hit, *surface, fog);
+        } else {
+            add_infinity(state, fog);
+        }
+        if (state.depth >= limits_.depth)
+            return;
+
+        if (fog && fog->scatters() && state.scatter < limits_.scatter) {
+            const bool split = options_.split && state.direct_view() && count_ + 2 < kBranches;
+            if (options_.line_lights)
+                sample_lights_along(state, end, *fog, split);
+            if (split) {
+                split_into_fog(state, end, *fog);
+            } else {
+                if (fly_into_fog(state, end, *fog))
+                    return;
+                if (surface)
+                    scatter_at_surface(state, *surface);
+                return;
+            }
+        }
+        if (surface) {
+            if (fog) {
+                state.beta *= fog->transmittance(end);
+                // An absorber in front of everything dims the picture, not the importance of what is behind it.
+                const Rgb absorbed = Rgb(std::exp(-optical_depth(fog->sigma_a.r, end)),
+                                         std::exp(-optical_depth(fog->sigma_a.g, end)),
+                                         std::exp(-optical_depth(fog->sigma_a.b, end)));
+                if (state.direct_view())
+                    state.exempt *= max_component(absorbed);
+            }
+            scatter_at_surface(state, *surface);
+        }
+    }
+
+    // -- Light met by chance -------------------------------------------------------------------------------------
+
+    void add_emission(const PathState &state, const Hit &hit, const Interaction &surface, const Homogeneous *fog) {
+        const Rgb &emission = scene_.materials[surface.material].emission;
+        if (is_black(emission))
+            return;
+        float weight = 1;
+        if (hit.instance == kNone) {
+            const uint32_t light = scene_.lights.of_sphere(hit.primitive);
+            weight = direction_weight(state, light, kNone, hit.t, 1);
+        } else if (scene_.lights.of_meshes() != kNone) {
+            const auto &mesh = std::get<MeshLight>(scene_.lights[scene_.lights.of_meshes()]);
+            const uint32_t triangle = mesh.triangle_of[mesh.first_of_instance[hit.instance] + hit.primitive];
+            if (triangle != kNone)
+                weight = direction_weight(state, scene_.lights.of_meshes(), triangle, hit.t,
+                                          std::abs(dot(surface.geometric_normal, state.ray.direction)));
+        }
+        add_seen(state, emission * weight, hit.t, fog);
+    }
+
+    void add_lamps(const PathState &state, float end, const Homogeneous *fog) {
+        if (state.depth == 0) // the camera does not see lamps
+            return;
+        Ray ray = state.ray;
+        ray.t_max = end;
+        for (uint32_t light : scene_.lights.lamps())
+            if (const auto lamp = intersect_lamp(scene_.lights[light], ray))
+                add_seen(state, lamp->radiance * direction_weight(state, light, kNone, lamp->t, 1), lamp->t, fog);
+    }
+
+    void add_infinity(const PathState &state, const Homogeneous *fog) {
+        for (uint32_t light : scene_.lights.infinite()) {
+            const bool sun = std::holds_alternative<SunLamp>(scene_.lights[light]);
+            if (sun && state.depth == 0)
+                continue;
+            const Rgb radiance = radiance_from_infinity(scene_.lights[light], state.ray.direction);
+            if (!is_black(radiance))
+                add_seen(state, radiance * direction_weight(state, light, kNone, kInfinity, 1), kInfinity, fog);
+        }
+    }
+
+    void add_seen(const PathState &state, const Rgb &radiance, float distance, const Homogeneous *fog) {
+        const Rgb value = state.beta * radiance * (fog ? fog->transmittance(distance) : Rgb(1));
+        switch (state.first) {
+        case PathState::First::none:
+            result_.emission += value;
+            break;
+        case PathState::First::fog:
+            result_.fog += value;
+            break;
+        case PathState::First::surface:
+            (state.order == 1 ? result_.direct : result_.indirect) += value;
+        }
+    }
+
+    /// The weight of a light met by chance against having been sampled from the vertex before.
+    float direction_weight(const PathState &state, uint32_t light, uint32_t triangle, float distance, float cosine) const {
+        const DirectionOrigin &o = state.origin;
+        if (o.kind == DirectionOrigin::Kind::specular || light == kNone)
+            return 1;
+        const float at_light =
+            light_pdf(scene_.lights[light], o.position, state.ray.direction, triangle, distance, cosine);
+        if (o.kind == DirectionOrigin::Kind::surface)
+            return balance(o.pdf, expected_samples(o.all_lights, light, o.position) * at_light);
+        if (scene_.lights.bound(light).infinite)
+            return 1;
+        if (!options_.line_lights)
+            return balance(o.pdf, expected_samples(false, light, o.position) * at_light);
+        const LineSampler line = line_sampler(light, o.segment_origin, o.segment_direction, o.segment_end);
+        const float samples = expected_samples(o.all_lights, light, o.segment_origin, o.segment_direction, o.segment_end);
+        return balance(o.distance_pdf * o.pdf, samples * line.pdf(o.distance) * at_light);
+    }
+
+    // -- Choice of lights: the expected number of samples that a light gets takes the place of its probability -------
+
+    bool every_light(bool all) const { return all && options_.all_lights && scene_.lights.size() <= kAllLights; }
+    uint32_t choices(bool all) const {
+        return every_light(all) ? scene_.lights.size() : all && options_.all_lights ? kManyLights : 1;
+    }
+
+    /// The i-th choice at a place: x, or the segment (origin, direction, end).
+    template <class... Place>
+    LightChoice choose(uint32_t i, bool all, const Place &...place) {
+        if (every_light(all))
+            return {i, 1};
+        const float u = sampler_.next_1d(), n = float(scene_.lights.size());
+        LightChoice choice = options_.guided_choice ? scene_.lights.choose(place..., sigma_, u)
+                                                    : LightChoice{std::min(uint32_t(u * n), uint32_t(n) - 1), 1 / n};
+        choice.probability *= float(choices(all));
+        return choice;
+    }
+    template <class... Place>
+    float expected_samples(bool all, uint32_t light, const Place &...place) const {
+        if (every_light(all))
+            return 1;
+        const float probability = options_.guided_choice ? scene_.lights.probability(light, place..., sigma_)
+                                                         : 1 / float(scene_.lights.size());
+        return float(choices(all)) * probability;
+    }
+
+    LineSampler line_sampler(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
+        const LightBound &b = scene_.lights.bound(light);
+        return {*scene_.medium, origin, direction, end, b.center, b.radius};
+    }
+
+    // -- Fog -----------------------------------------------------------------------------------------------------
+
+    /// The light that the fog scatters once into the segment.
+    void sample_lights_along(const PathState &state, float end, const Homogeneous &fog, bool all) {
+        if (scene_.lights.size() == 0)
+            return;
+        const bool camera = state.depth == 0;
+        const HenyeyGreenstein phase{fog.g};
+        const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
+        for (uint32_t i = 0; i < choices(all); ++i) {
+            const LightChoice choice = choose(i, all, origin, direction, end);
+            if (scene_.lights.bound(choice.index).infinite)
+                continue; // an endless fog lets nothing through from there
+            const LineSampler line = line_sampler(choice.index, origin, direction, end);
+            const LineSample at = line.sample(camera ? sampler_.stratified_1d(kSetLine + 2 * i) : sampler_.next_1d());
+            if (!(at.pdf > 0) || !(at.t < kInfinity))
+                continue;
+            const Vec3f x = origin + direction * at.t;
+            const auto light = sample_light(scene_.lights[choice.index], x,
+                                            camera ? sampler_.stratified_2d(kSetLine + 2 * i + 1) : sampler_.next_2d());
+            if (!light)
+                continue;
+            const float p_phase = phase.eval(direction, light->direction);
+            const Rgb unshadowed = fog.sigma_s * fog.transmittance(at.t + light->distance) * light->radiance *
+                                   (p_phase / light->pdf / at.pdf / choice.probability);
+            if (is_black(unshadowed) || occluded(x, *light))
+                continue;
+            float weight = 1;
+            if (!light->delta) {
+                const float p_distance =
+                    all ? collision_pdf(fog, state.beta, end, at.t) : free_flight_pdf(fog, state.beta, at.t);
+                weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
+            }
+            const Rgb value = state.beta * unshadowed * weight;
+            (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
+        }
+    }
+
+    /// One path that goes on from within the segment, given that it scatters there.
+    void split_into_fog(const PathState &state, float end, const Homogeneous &fog) {
+        const bool camera = state.depth == 0;
+        const Collision c = camera ? sample_collision(fog, state.beta, end, sampler_.next_1d(),
+                                                      sampler_.stratified_bits(kSetCollision))
+                                   : sample_collision(fog, state.beta, end, sampler_);
+        if (c.pdf > 0)
+            scatter_in_fog(state, end, fog, c.t, c.weight, c.pdf, true);
+    }
+
+    /// True when the path scattered before the surface; else its throughput is that of a path that passed.
+    bool fly_into_fog(PathState &state, float end, const Homogeneous &fog) {
+        const FreeFlight flight = sample_free_flight(fog, state.beta, end, sampler_);
+        if (!flight.scattered) {
+            state.beta *= flight.weight;
+            return false;
+        }
+        if (flight.pdf > 0)
+            scatter_in_fog(state, end, fog, flight.t, flight.weight, flight.pdf, false);
+        return true;
+    }
+
+    void scatter_in_fog(const PathState &state, float end, const Homogeneous &fog, float t, const Rgb &weight, float pdf,
+                        bool all) {
+        PathState next = state;
+        next.beta *= weight;
+        const Vec3f x = state.ray.origin + state.ray.direction * t;
+        if (!options_.line_lights)
+            sample_light_in_fog(next, x, fog);
+        if (!survives(next, x))
+            return;
+        const bool camera = state.depth == 0;
+        const PhaseSample s = HenyeyGreenstein{fog.g}.sample(
+            state.ray.direction, camera ? sampler_.stratified_2d(kSetPhase) : sampler_.next_2d());
+        next.ray = {x, s.direction};
+        next.origin = {DirectionOrigin::Kind::fog, all, s.pdf, x, state.ray.origin, state.ray.direction, end, t, pdf};
+        ++next.depth;
+        ++next.scatter;
+        if (state.direct_view())
+            next.first = PathState::First::fog;
+        ++next.order;
+        push(next);
+    }
+
+    /// One light at a collision, against the phase function that goes on from there.
+    void sample_light_in_fog(const PathState &state, const Vec3f &x, const Homogeneous &fog) {
+        if (scene_.lights.size() == 0)
+            return;
+        const LightChoice choice = choose(0, false, x);
+        const auto light = sample_light(scene_.lights[choice.index], x, sampler_.next_2d());
+        if (!light)
+            return;
+        const float p_phase = HenyeyGreenstein{fog.g}.eval(state.ray.direction, light->direction);
+        const Rgb unshadowed = fog.transmittance(light->distance) * light->radiance * (p_phase / light->pdf / choice.probability);
+        if (is_black(unshadowed) || occluded(x, *light))
+            return;
+        const float weight = light->delta ? 1 : balance(choice.probability * light->pdf, p_phase);
+        const Rgb value = state.beta * unshadowed * weight;
+        (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
+    }
+
+    // -- Surfaces ------------------------------------------------------------------------------------------------
+
+    void note_first_surface(const Interaction &surface) {
+        result_.hit = true;
+        result_.normal = surface.shading_normal;
+        result_.depth = dot(surface.position, scene_.camera.forward);
+        result_.object_index = surface.object_index;
+        result_.material_index = surface.material + 1;
+    }
+
+    void scatter_at_surface(PathState &state, const Interaction &surface) {
+        const Material &material = scene_.materials[surface.material];
+        if (material.kind == MaterialKind::glass)
+            return pass_glass(state, surface, material);
+        const Bsdf bsdf = scene_.bsdf(material);
+        if (bsdf.empty())
+            return;
+        const bool camera = state.depth == 0;
+        const Vec3f wo = -state.ray.direction;
+        // All materials but glass are two-sided: both normals turn to the viewer.
+        const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
+        const Vec3f geometric = surface.geometric_normal * side;
+        Vec3f shading = surface.shading_normal * side;
+        if (!(dot(wo, shading) > 1e-6f))
+            shading = geometric;
+        const Frame frame(shading);
+        const Vec3f wo_local = frame.to_local(wo);
+        if (!(wo_local.z > 0))
+            return;
+        if (state.direct_view())
+            result_.albedo = albedo(bsdf);
+
+        const bool all = state.direct_view();
+        if (!is_specular(bsdf))
+            sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, all);
+
+        const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe) : sampler_.next_1d(),
+                              camera ? sampler_.stratified_2d(kSetBsdf) : sampler_.next_2d());
+        if (!s)
+            return;
+        const Vec3f wi = normalize(frame.to_world(s->wi));
+        if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
+            return;
+        state.beta *= s->weight;
+        if (!survives(state, surface.position))
+            return;
+        state.ray = {surface.origin_towards(wi), wi};
+        ++state.depth;
+        if (s->specular) {
+            state.origin = {};
+            state.order += state.direct_view() ? 0 : 1;
+        } else {
+            state.origin = {};
+            state.origin.kind = DirectionOrigin::Kind::surface;
+            state.origin.all_lights = all;
+            state.origin.pdf = s->pdf;
+            state.origin.position = surface.position;
+            if (state.direct_view())
+                state.first = PathState::First::surface;
+            ++state.order;
+        }
+        push(state);
+    }
+
+    void sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
+                          const Vec3f &geometric, const Vec3f &wo, bool all) {
+        if (scene_.lights.size() == 0)
+            return;
+        const bool camera = state.depth == 0;
+        const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+        for (uint32_t i = 0; i < choices(all); ++i) {
+            const LightChoice choice = choose(i, all, surface.position);
+            const auto light = sample_light(scene_.lights[choice.index], surface.position,
+                                            camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
+            if (!light || !(dot(light->direction, geometric) > 0))
+                continue;
+            const Vec3f wi = frame.to_local(light->direction);
+            if (!(wi.z > 0))
+                continue;
+            Rgb value = eval(bsdf, wo, wi) * light->radiance * (1 / light->pdf / choice.probability);
+            if (fog)
+                value *= fog->transmittance(light->distance);
+            if (is_black(value) || occluded(surface.origin_towards(light->direction), *light))
+                continue;
+            if (!light->delta)
+                value *= balance(choice.probability * light->pdf, pdf(bsdf, wo, wi));
+            value *= state.beta;
+            switch (state.first) {
+            case PathState::First::none:
+                result_.direct += value;
+                break;
+            case PathState::First::surface:
+                result_.indirect += value;
+                break;
+            case PathState::First::fog:
+                result_.fog += value;
+            }
+        }
+    }
+
+    void pass_glass(PathState &state, const Interaction &surface, const Material &material) {
+        const Vec3f wo = -state.ray.direction;
+        const bool entering = dot(wo, surface.geometric_normal) > 0;
+        GlassStack beyond = state.glass;
+        if (entering)
+            beyond.enter(surface.body, material.ior);
+        else
+            beyond.leave(surface.body);
+        const float side = entering ? 1.0f : -1.0f;
+        const Vec3f geometric = surface.geometric_normal * side;
+        Vec3f shading = surface.shading_normal * side;
+        if (!(dot(wo, shading) > 1e-6f))
+            shading = geometric;
+        const Frame frame(shading);
+        Vec3f wo_local = frame.to_local(wo);
+        wo_local.z = std::max(wo_local.z, 1e-7f);
+        const float here = entering || !state.glass.empty() ? state.glass.ior() : material.ior;
+        const GlassSample s = sample_glass(wo_local, beyond.ior() / here, material.schlick, sampler_.next_1d());
+        const Vec3f wi = normalize(frame.to_world(s.wi));
+        if ((dot(wi, geometric) < 0) != s.transmitted)
+            return;
+        state.beta *= s.weight;
+        state.exempt *= s.weight.r;
+        if (s.transmitted)
+            state.glass = beyond;
+        if (!survives(state, surface.position))
+            return;
+        state.ray = {surface.origin_towards(wi), wi};
+        state.origin = {};
+        state.order += state.direct_view() ? 0 : 1;
+        ++state.depth;
+        push(state);
+    }
+
+    // -- Shared ----------------------------------------------------------------------------------------------------
+
+    bool occluded(const Vec3f &origin, const LightSample &light) {
+        ++rays_.rays;
+        return scene_.accel->occluded({origin, light.direction, light.distance}, light.ignored_sphere);
+    }
+
+    /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow without bound.
+    bool survives(PathState &state, const Vec3f &x) {
+        const float weight = max_component(state.beta) / state.exempt * surroundings_importance(scene_, x);
+        if (!(weight > 0))
+            return false;
+        if (weight >= 1)
+            return true;
+        if (sampler_.next_1d() >= weight)
+            return false;
+        state.beta *= 1 / weight;
+        return true;
+    }
+
+    void push(const PathState &state) { stack_[count_++] = state; }
+
+    const Scene &scene_;
+    const DepthLimits &limits_;
+    const PathOptions &options_;
+    Sampler &sampler_;
+    RayCounter &rays_;
+    float sigma_ = 0; ///< smallest extinction of the channels
+    FilmSample result_;
+    std::array<PathState, kBranches> stack_;
+    size_t count_ = 0;
+};
+
+class PathIntegrator final : public Integrator {
+  public:
+    PathIntegrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options)
+        : scene_(scene), limits_(limits), options_(options), around_camera_(glass_around(scene, Vec3f())) {}
+
+    FilmSample sample(const CameraRay &camera, Sampler &sampler, RayCounter &rays) const override {
+        PathState state;
+        state.ray = camera.ray;
+        state.glass = around_camera_;
+        return PathSample(scene_, limits_, options_, sampler, rays).run(state);
+    }
+
+    std::string kernel() const override { return "path"; }
+
+  private:
+    const Scene &scene_;
+    DepthLimits limits_;
+    PathOptions options_;
+    GlassStack around_camera_;
+};
+
+} // namespace
+
+std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
+                                                       const PathOptions &options) {
+    return std::make_unique<PathIntegrator>(scene, limits, options);
+}
+
+} // namespace glimmer

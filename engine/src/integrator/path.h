@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Unidirectional path tracing. Segments seen directly from the camera are split, never tossed a coin over: the light that the fog
+// scatters once along them is summed light by light, one path goes on from a point in the fog and one from the surface behind.
+#pragma once
+
+#include "integrator/integrator.h"
+
+namespace glimmer {
+
+/// The estimators that can be switched, one by one: each changes noise and time, never the mean.
+struct PathOptions {
+    bool split = true;         ///< direct segments of fog: both ends are followed; else one, by free flight
+    bool all_lights = true;    ///< at what the camera sees directly every light is sampled; else one everywhere
+    bool guided_choice = true; ///< one light is chosen by what it could bring; else all alike
+    bool line_lights = true;   ///< light is sampled along segments of fog; else at the collision that ends them
+};
+
+/// The student report's method, kept as a yardstick: one light, exponential free flights, balance heuristic.
+inline constexpr PathOptions kReportOptions{false, false, false, false};
+
+std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options);
+
+} // namespace glimmer

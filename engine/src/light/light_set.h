@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All lights of a scene and the choice of one of them.
+#pragma once
+
+#include "light/light.h"
+#include "medium/homogeneous.h"
+
+#include <vector>
+
+namespace glimmer {
+
+struct LightChoice {
+    uint32_t index;
+    float probability;
+};
+
+class LightSet {
+  public:
+    /// Up to here choices are made by what each light could bring; beyond, by strength alone.
+    static constexpr uint32_t kWeighedLights = 32;
+
+    LightSet() = default;
+    explicit LightSet(std::vector<Light> lights);
+
+    uint32_t size() const { return uint32_t(lights_.size()); }
+    const Light &operator[](uint32_t i) const { return lights_[i]; }
+    const LightBound &bound(uint32_t i) const { return bounds_[i]; }
+
+    /// Lamps and lights at infinity, by index: what an integrator must ask for besides surfaces.
+    const std::vector<uint32_t> &lamps() const { return lamps_; }
+    const std::vector<uint32_t> &infinite() const { return infinite_; }
+    /// Which light a sphere or instance is; kNone if none.
+    uint32_t of_sphere(uint32_t sphere) const { return sphere < of_sphere_.size() ? of_sphere_[sphere] : kNone; }
+    uint32_t of_meshes() const { return mesh_light_; }
+
+    /// One light for a point: with probability 0.9 by strength / distance^2 * e^(-sigma distance), else any; so that no light has
+    /// probability 0, however small its bound. sigma: the smallest extinction of the channels.
+    LightChoice choose(const Vec3f &x, float sigma, float u) const;
+    float probability(uint32_t light, const Vec3f &x, float sigma) const;
+    /// One light for a segment of fog, by the angle that the segment spans as seen from the light.
+    LightChoice choose(const Vec3f &origin, const Vec3f &direction, float t_max, float sigma, float u) const;
+    float probability(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max, float sigma) const;
+
+  private:
+    using Weights = std::array<float, kWeighedLights>;
+    float weigh_point(uint32_t light, const Vec3f &x, float sigma) const;
+    float weigh_segment(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max, float sigma) const;
+
+    std::vector<Light> lights_;
+    std::vector<LightBound> bounds_;
+    std::vector<uint32_t> lamps_, infinite_, of_sphere_;
+    uint32_t mesh_light_ = kNone;
+    AliasTable by_strength_;
+};
+
+} // namespace glimmer

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The camera, the film and its filter.
+#include "api/error.h"
+#include "scene/builder.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+/// Inverse CDF of the Blackman-Harris window over [-0.5, 0.5] at equal steps of the CDF, for filter importance sampling (Ernst,
+/// Stamminger, Greiner 2006): every sample then counts the same and none leaves its pixel.
+std::vector<float> invert_blackman_harris() {
+    constexpr int kFine = 4096, kSteps = 256;
+    const auto window = [](double x) { // x in [0, 1]
+        const double a = 2 * 3.14159265358979323846 * x;
+        return 0.35875 - 0.48829 * std::cos(a) + 0.14128 * std::cos(2 * a) - 0.01168 * std::cos(3 * a);
+    };
+    std::vector<double> cdf(kFine + 1, 0.0);
+    for (size_t i = 0; i < kFine; ++i)
+        cdf[i + 1] = cdf[i] + window((double(i) + 0.5) / kFine);
+    std::vector<float> inverse;
+    size_t i = 0;
+    for (int s = 0; s <= kSteps; ++s) {
+        const double target = cdf[kFine] * s / kSteps;
+        while (i + 1 < kFine && cdf[i + 1] < target)
+            ++i;
+        const double f = (target - cdf[i]) / (cdf[i + 1] - cdf[i]);
+        inverse.push_back(float((double(i) + std::min(std::max(f, 0.0), 1.0)) / kFine - 0.5));
+    }
+    return inverse;
+}
+
+} // namespace
+
+void SceneBuilder::build_camera_and_film() {
+    if (!description_.camera)
+        fail_state("the scene has no camera; set one before commit");
+    if (!description_.film)
+        fail_state("the scene has no film; set one before commit");
+    const glimmer_camera_desc &c = *description_.camera;
+    const glimmer_film_desc &f = *description_.film;
+
+    const Affine to_world = affine_from_rows(c.to_world);
+    origin_ = to_world.translation;
+    Camera &camera = scene_.camera;
+    camera.right = Vec3f(to_world.linear.column(0));
+    camera.up = Vec3f(to_world.linear.column(1));
+    camera.forward = -Vec3f(to_world.linear.column(2));
+    camera.tan_half_x = float(std::tan(c.fov_x * 3.14159265358979323846 / 360));
+    camera.aspect = float(f.height) / float(f.width);
+    camera.shift = {float(c.shift[0]), float(c.shift[1])};
+    camera.lens_radius = float(c.lens_radius);
+    camera.focus_distance = float(c.focus_distance);
+    camera.clip_start = float(c.clip_start);
+    camera.clip_end = float(c.clip_end);
+
+    FilmSettings &film = scene_.film;
+    film.width = f.width;
+    film.height = f.height;
+    const bool whole = f.crop[2] == 0 && f.crop[3] == 0;
+    film.crop_x = whole ? 0 : f.crop[0];
+    film.crop_y = whole ? 0 : f.crop[1];
+    film.crop_width = whole ? f.width : f.crop[2] - f.crop[0];
+    film.crop_height = whole ? f.height : f.crop[3] - f.crop[1];
+    film.filter_width = f.filter_width;
+    if (f.filter == GLIMMER_BLACKMAN_HARRIS)
+        film.filter_inverse = invert_blackman_harris();
+    else
+        film.filter_width = 1;
+}
+
+} // namespace glimmer

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Instances and spheres, relative to the camera, and the BVH over them.
+#include "api/error.h"
+#include "scene/builder.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+constexpr float kRoundingUnits = 0x1p-21f; // eight roundings of 2^-24 in a hit's chain of operations
+
+} // namespace
+
+/// The object's mesh, or a copy of it without the triangles whose material is absent; null when none is left.
+std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription &object) const {
+    const Mesh &mesh = *object.mesh;
+    const auto absent = [&](size_t slot) {
+        return scene_.materials[object.materials[slot]].kind == MaterialKind::absent;
+    };
+    size_t gone = 0;
+    for (size_t s = 0; s < mesh.slot_count; ++s)
+        gone += absent(s);
+    if (gone == 0)
+        return object.mesh;
+    if (gone == mesh.slot_count)
+        return nullptr;
+    auto rest = std::make_shared<Mesh>();
+    rest->name = mesh.name;
+    rest->center = mesh.center;
+    rest->vertices = mesh.vertices;
+    rest->normals = mesh.normals;
+    rest->uvs = mesh.uvs;
+    rest->radius = mesh.radius;
+    rest->slot_count = mesh.slot_count;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (!absent(mesh.slot(t))) {
+            rest->triangles.push_back(mesh.triangles[t]);
+            rest->slots.push_back(mesh.slot(t));
+        }
+    return rest->triangles.empty() ? nullptr : rest;
+}
+
+void SceneBuilder::build_geometry() {
+    std::vector<Instance> instances;
+    size_t flat = 0;
+    for (const ObjectDescription &object : description_.objects) {
+        std::shared_ptr<const Mesh> mesh = without_absent(object);
+        if (!mesh) {
+            ++absent_objects_;
+            continue;
+        }
+        for (uint32_t material : object.materials) {
+            used_[material] = true;
+            scene_.has_glass |= scene_.materials[material].kind == MaterialKind::glass;
+        }
+        const auto index = uint32_t(scene_.object_materials.size());
+        scene_.object_materials.push_back(object.materials);
+        for (size_t i = 0; i < object.instances.size(); ++i) {
+            const Affine &a = object.instances[i];
+            Instance instance;
+            instance.mesh = mesh.get();
+            for (size_t r = 0; r < 3; ++r)
+                instance.linear[r] = Vec3f(a.linear.rows[r]);
+            instance.translation = Vec3f(a * mesh->center - origin_);
+            // Normalised, so that neither tiny nor huge scales under- or overflow in float32.
+            Linear cofactor = a.linear.cofactor();
+            const double scale = std::max({max_abs(cofactor.rows[0]), max_abs(cofactor.rows[1]), max_abs(cofactor.rows[2])});
+            if (!(std::abs(a.linear.determinant()) > 0) || !std::isfinite(scale)) {
+                ++flat; // no volume to enter and no inverse for the ray: as good as not there
+                continue;
+            }
+            for (Vec3d &row : cofactor.rows)
+                row = row / scale;
+            if (a.linear.determinant() < 0) // a mirrored mesh keeps its outside
+                for (Vec3d &row : cofactor.rows)
+                    row = -row;
+            for (size_t r = 0; r < 3; ++r)
+                instance.normal_matrix[r] = Vec3f(cofactor.rows[r]);
+            instance.object = index;
+            instance.object_index = object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
+            instances.push_back(instance);
+        }
+        scene_.meshes_.push_back(std::move(mesh));
+    }
+    if (flat)
+        scene_.warnings.push_back(std::to_string(flat) + " instance(s) of zero scale were left out");
+
+    std::vector<Sphere> spheres;
+    for (const SpheresDescription &group : description_.spheres) {
+        const Material &material = scene_.materials[group.material];
+        if (material.kind == MaterialKind::absent) {
+            ++absent_objects_;
+            continue;
+        }
+        used_[group.material] = true;
+        scene_.has_glass |= material.kind == MaterialKind::glass;
+        for (size_t i = 0; i < group.centers.size(); ++i) {
+            spheres.push_back({group.centers[i] - origin_, group.radii.size() == 1 ? group.radii[0] : group.radii[i]});
+            scene_.sphere_materials.push_back(group.material);
+            scene_.sphere_indices.push_back(group.object_index);
+        }
+    }
+    scene_.accel = std::make_unique<Accel>(std::move(instances), std::move(spheres));
+}
+
+Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
+    Interaction at;
+    if (hit.instance == kNone) {
+        const Sphere &sphere = accel->spheres()[hit.primitive];
+        const Vec3d normal = normalize(Vec3d(ray.origin) + Vec3d(ray.direction) * double(hit.t) - sphere.center);
+        at.position = Vec3f(sphere.center + normal * sphere.radius);
+        at.geometric_normal = at.shading_normal = Vec3f(normal);
+        at.error = kRoundingUnits * max_abs(at.position);
+        at.material = sphere_materials[hit.primitive];
+        at.object_index = sphere_indices[hit.primitive];
+        at.body = uint32_t(accel->instances().size()) + hit.primitive;
+        return at;
+    }
+    const Instance &instance = accel->instances()[hit.instance];
+    const Mesh &mesh = *instance.mesh;
+    const auto &triangle = mesh.triangles[hit.primitive];
+    const Vec3f &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+    const float w = 1 - hit.u - hit.v;
+    at.position = instance.to_world(a * w + b * hit.u + c * hit.v);
+    // Edges are lengthened before the product, so that a triangle a micrometre wide keeps its normal.
+    const Vec3f e1 = b - a, e2 = c - a;
+    const float scale = 1 / std::max(max_abs(e1), max_abs(e2));
+    at.geometric_normal = normalize(instance.normal_to_world(normalize(cross(e1 * scale, e2 * scale))));
+    at.shading_normal = at.geometric_normal;
+    if (!mesh.normals.empty()) {
+        const Vec3f n = instance.normal_to_world(mesh.normals[triangle[0]] * w + mesh.normals[triangle[1]] * hit.u +
+                                                 mesh.normals[triangle[2]] * hit.v);
+        const float n_length = length(n);
+        if (n_length > 0) {
+            at.shading_normal = n / n_length;
+            if (dot(at.shading_normal, at.geometric_normal) < 0)
+                at.shading_normal = -at.shading_normal;
+        }
+    }
+    const float local = std::max(max_abs(a), std::max(max_abs(b), max_abs(c)));
+    const float stretch = std::max(max_abs(instance.linear[0]), std::max(max_abs(instance.linear[1]), max_abs(instance.linear[2])));
+    at.error = kRoundingUnits * (max_abs(at.position) + stretch * local + max_abs(instance.translation));
+    at.material = object_materials[instance.object][mesh.slot(hit.primitive)];
+    at.object_index = instance.object_index;
+    at.body = hit.instance;
+    return at;
+}
+
+} // namespace glimmer

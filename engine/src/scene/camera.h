@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A perspective camera, pinhole or thin lens. The scene's origin is where it stands, so its rays start near 0.
+#pragma once
+
+#include "geometry/ray.h"
+#include "math/vec.h"
+
+namespace glimmer {
+
+struct CameraRay {
+    Ray ray;           ///< t_max: the far clipping plane along this ray
+    float inv_cosine;  ///< 1 / cosine of the angle to the axis
+};
+
+struct Camera {
+    Vec3f right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; ///< orthonormal
+    float tan_half_x = 1;                                 ///< tangent of half the horizontal angle
+    float aspect = 1;                                     ///< height / width
+    Vec2f shift;                                          ///< in widths
+    float lens_radius = 0, focus_distance = 0;            ///< lengths
+    float clip_start = 0, clip_end = kInfinity;           ///< lengths along the axis
+
+    /// The ray through a point of the film (x right, y down, both 0 to 1) and a point of the lens (unit disk).
+    CameraRay generate(Vec2f film, Vec2f lens) const {
+        const float sx = (2 * film.x - 1 + 2 * shift.x) * tan_half_x;
+        const float sy = ((1 - 2 * film.y) * aspect + 2 * shift.y) * tan_half_x;
+        const Vec3f pinhole = forward + right * sx + up * sy; // 1 along the axis
+        Vec3f origin, along = pinhole;
+        if (lens_radius > 0) {
+            origin = (right * lens.x + up * lens.y) * lens_radius;
+            along = pinhole - origin / focus_distance;
+        }
+        const float inv_cosine = length(along);
+        const Vec3f direction = along / inv_cosine;
+        origin += direction * (clip_start * inv_cosine);
+        return {{origin, direction, (clip_end - clip_start) * inv_cosine}, inv_cosine};
+    }
+};
+
+} // namespace glimmer

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a caller has added to a scene, checked but not yet built: plain data in float64, world coordinates.
+#pragma once
+
+#include "geometry/mesh.h"
+#include "math/affine.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glimmer.h"
+
+namespace glimmer {
+
+struct Image {
+    uint32_t width = 0, height = 0;
+    std::vector<Rgb> pixels; ///< top row first
+};
+
+struct ObjectDescription {
+    std::string name;
+    std::shared_ptr<const Mesh> mesh;
+    std::vector<uint32_t> materials; ///< one a slot
+    std::vector<Affine> instances;
+    std::vector<uint32_t> object_indices; ///< one an instance, or one for all
+};
+
+struct SpheresDescription {
+    std::string name;
+    std::vector<Vec3d> centers;
+    std::vector<double> radii; ///< one each, or one for all
+    uint32_t material = 0;
+    uint32_t object_index = 0;
+};
+
+struct EnvironmentDescription {
+    Rgb color;
+    std::shared_ptr<const Image> image;
+    Linear to_world;
+};
+
+struct MediumDescription {
+    Vec3d sigma_a, sigma_s;
+    double g = 0;
+};
+
+/// The descriptions of the C API are plain values once their strings and arrays have been copied out.
+struct MaterialDescription : glimmer_material_desc {
+    std::string label;
+};
+struct LightDescription : glimmer_light_desc {
+    std::string label;
+};
+
+struct SceneDescription {
+    std::vector<MaterialDescription> materials;
+    std::vector<ObjectDescription> objects;
+    std::vector<SpheresDescription> spheres;
+    std::vector<LightDescription> lights;
+    std::optional<EnvironmentDescription> environment;
+    std::optional<MediumDescription> medium;
+    std::optional<glimmer_camera_desc> camera;
+    std::optional<glimmer_film_desc> film;
+};
+
+} // namespace glimmer

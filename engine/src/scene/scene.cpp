@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/scene.h"
+
+#include "scene/builder.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace glimmer {
+
+SceneBuilder::SceneBuilder(const SceneDescription &description, Scene &scene) : description_(description), scene_(scene) {}
+
+void SceneBuilder::build_medium() {
+    if (!description_.medium)
+        return;
+    const MediumDescription &m = *description_.medium;
+    const auto rgb = [](const Vec3d &v) { return Rgb(float(v.x), float(v.y), float(v.z)); };
+    const Homogeneous medium(rgb(m.sigma_a), rgb(m.sigma_s), float(m.g));
+    if (!is_black(medium.sigma_t))
+        scene_.medium = medium;
+}
+
+/// A sphere around all that a path can meet or be lit by, infinite lights apart.
+void SceneBuilder::build_bounds() {
+    Vec3d low(HUGE_VAL, HUGE_VAL, HUGE_VAL), high = -low;
+    const auto add = [&](const Vec3d &center, double radius) {
+        low = {std::min(low.x, center.x - radius), std::min(low.y, center.y - radius), std::min(low.z, center.z - radius)};
+        high = {std::max(high.x, center.x + radius), std::max(high.y, center.y + radius), std::max(high.z, center.z + radius)};
+    };
+    for (const Instance &i : scene_.accel->instances()) {
+        const double stretch = double(std::max({length(i.linear[0]), length(i.linear[1]), length(i.linear[2])}));
+        add(Vec3d(i.translation), 3 * stretch * double(i.mesh->radius));
+    }
+    for (const Sphere &s : scene_.accel->spheres())
+        add(s.center, s.radius);
+    for (uint32_t i = 0; i < scene_.lights.size(); ++i)
+        if (const LightBound &b = scene_.lights.bound(i); !b.infinite)
+            add(Vec3d(b.center), double(b.radius));
+    if (!(low.x <= high.x))
+        return;
+    scene_.bounds_center = Vec3f((low + high) * 0.5);
+    scene_.bounds_radius = float(length(high - low) * 0.5);
+}
+
+void SceneBuilder::list_left_out() {
+    std::vector<std::string> &out = scene_.left_out;
+    const auto count = [](size_t n, const std::string &what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); };
+    if (!scene_.medium)
+        out.push_back("no fog: no distance sampling, no transmittance");
+    else if (!scene_.medium->scatters())
+        out.push_back("fog that does not scatter: no distance sampling");
+    if (scene_.medium && scene_.medium->grey)
+        out.push_back("grey fog: one channel of transmittance");
+    if (scene_.medium && scene_.medium->g == 0)
+        out.push_back("isotropic fog: no phase function");
+    if (!scene_.has_glass)
+        out.push_back("no glass: no search for the bodies around the camera");
+    if (scene_.camera.lens_radius == 0)
+        out.push_back("pinhole camera: no lens sampling");
+    if (scene_.lights.lamps().empty())
+        out.push_back("no lamps with a size: no lamp intersections");
+    size_t unused = 0;
+    for (size_t i = 0; i < used_.size(); ++i)
+        unused += !used_[i];
+    for (const MaterialDescription &m : description_.materials)
+        if (m.type == GLIMMER_MIX) // its parts are used by name only
+            unused -= size_t(!used_[m.a]) + size_t(m.b != m.a && !used_[m.b]);
+    if (unused > 0 && unused <= used_.size())
+        out.push_back(count(unused, "material") + " of " + std::to_string(used_.size()) + " that nothing is made of");
+    if (absent_objects_)
+        out.push_back(count(absent_objects_, "object") + " of null material");
+    if (black_lights_)
+        out.push_back(count(black_lights_, "black light"));
+}
+
+Scene::Scene(const SceneDescription &description) {
+    const auto start = std::chrono::steady_clock::now();
+    SceneBuilder builder(description, *this);
+    builder.build_camera_and_film();
+    builder.build_materials();
+    builder.build_medium();
+    builder.build_geometry();
+    builder.build_lights();
+    builder.build_bounds();
+    builder.list_left_out();
+    if (medium && !lights.infinite().empty() && medium->sigma_t.r > 0 && medium->sigma_t.g > 0 && medium->sigma_t.b > 0)
+        warnings.push_back("the fog has no end, so the environment and suns behind it are exactly black; light the scene with "
+                           "lights of a place and size, or leave out the fog");
+    if (lights.size() == 0)
+        warnings.push_back("nothing in the scene shines: the picture will be black");
+    build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+size_t Scene::bytes() const {
+    size_t n = lobes.size() * sizeof(WeightedLobe) + accel->instances().size() * sizeof(Instance) +
+               accel->spheres().size() * sizeof(Sphere);
+    for (const auto &mesh : meshes_)
+        n += mesh->bytes();
+    return n;
+}
+
+} // namespace glimmer
