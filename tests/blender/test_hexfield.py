@@ -5,6 +5,7 @@ test here.
 
 import ast
 import json
+import os
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -42,7 +43,9 @@ def results(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
         ]
     else:
         command = [str(request.getfixturevalue("bpy_python")), str(SCRIPT), str(out)]
-    process = subprocess.run(command, check=False, capture_output=True, text=True, timeout=240)
+    # Debian's Blender takes the first python3 on PATH for its own, and that one's packages.
+    environment = {**os.environ, "PATH": os.pathsep.join([str(Path(command[0]).parent), os.environ["PATH"]])}
+    process = subprocess.run(command, check=False, env=environment, capture_output=True, text=True, timeout=240)
     assert process.returncode == 0, process.stdout[-2000:] + process.stderr[-4000:]
     return json.loads(out.read_text())["results"]
 
