@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene.description import Rgb
 from ..scene.problems import Notices
@@ -313,7 +314,7 @@ def _layer_weight(nodes: Nodes, source: Source) -> Value:
     return (mean,)
 
 
-def read_image(image: bpy.types.Image) -> np.ndarray:
+def read_image(image: bpy.types.Image) -> NDArray[np.float32]:
     """(height, width, channels) float32, linear, bottom row first."""
     width, height = image.size
     channels = image.channels

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..film.passes import RenderPass
-from ..scene.description import Lamp, Mesh, NamedMaterial, Object, SceneDescription, Spheres
+from ..scene.description import Floats, Lamp, Mesh, NamedMaterial, Object, SceneDescription, Spheres
 from ..scene.problems import GlimmerError, Notice, Notices, place
 from .camera import export_camera
 from .film import export_film, export_settings
@@ -133,7 +133,7 @@ class _Collector:
             )
         )
 
-    def _add_spheres(self, item: bpy.types.Object, matrices: np.ndarray) -> None:
+    def _add_spheres(self, item: bpy.types.Object, matrices: Floats) -> None:
         mesh = item.to_mesh()
         try:
             points = np.zeros((0, 3)) if mesh is None else read(mesh.vertices, "co", np.float32, 3)

@@ -194,7 +194,7 @@ Lamp = PointLight | SpotLight | SunLight | AreaLight
 
 @dataclass(frozen=True, eq=False)
 class Environment:
-    radiance: Rgb = BLACK  # multiplies the image where there is one
+    radiance: Rgb = BLACK  # one grey that multiplies the image where there is one
     image: NDArray[np.float32] | None = None  # (height, width, 3) linear, top row first, centre along +y, z up
     to_world: Floats = field(default_factory=lambda: np.eye(4))
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from . import description as d
+from .exr import write_exr
 from .ply import write_ply
 from .problems import GlimmerError
 
@@ -41,7 +42,7 @@ def _numbers(array: Any) -> Any:
 class _Writer:
     def __init__(self, path: Path) -> None:
         self._folder = path.with_name(path.stem + "_data")
-        self._mesh_names: dict[tuple[bytes, int], str] = {}
+        self._mesh_names: dict[bytes, str] = {}
         self._material_names: list[str] = []
         self._meshes: Json = {}
         self._arrays = 0
@@ -55,7 +56,7 @@ class _Writer:
             "camera": _camera(scene.camera),
             "materials": {name: _material(item.material) for name, item in named},
             "meshes": self._meshes,
-            "objects": [part for item in scene.objects for part in self._object(item)],
+            "objects": [self._object(item) for item in scene.objects],
             "spheres": [self._spheres(item) for item in scene.spheres],
             "lights": [_LAMPS[type(lamp)](lamp) for lamp in scene.lights],
             "environment": self._environment(scene.environment),
@@ -73,46 +74,52 @@ class _Writer:
         np.save(self._folder / name, array)
         return f"{self._folder.name}/{name}"
 
-    def _mesh(self, mesh: d.Mesh, slot: int) -> str:
-        """A mesh of the file, of the triangles of one material slot."""
-        key = (mesh.digest, slot)
-        if key not in self._mesh_names:
-            name = self._mesh_names[key] = f"mesh_{len(self._mesh_names)}"
-            part = mesh
-            if mesh.slots is not None:
-                part = d.Mesh(mesh.name, mesh.vertices, mesh.triangles[mesh.slots == slot], mesh.normals)
+    def _mesh(self, mesh: d.Mesh) -> str:
+        """The name of a mesh of the file, written when it is first asked for."""
+        if mesh.digest not in self._mesh_names:
+            name = self._mesh_names[mesh.digest] = f"mesh_{len(self._mesh_names)}"
             self._folder.mkdir(parents=True, exist_ok=True)
-            write_ply(part, self._folder / f"{name}.ply")
+            write_ply(mesh, self._folder / f"{name}.ply")
             self._meshes[name] = {"file": f"{self._folder.name}/{name}.ply"}
-        return self._mesh_names[key]
+            if mesh.slots is not None:
+                self._meshes[name]["slots"] = self._save("slots", mesh.slots)
+        return self._mesh_names[mesh.digest]
 
-    def _object(self, item: d.Object) -> list[Json]:
-        """One entry for each material: objects of a scene file have a single one."""
-        shared: Json = {"to_world": _numbers(item.to_world)}
+    def _object(self, item: d.Object) -> Json:
+        result: Json = {"mesh": self._mesh(item.mesh)}
+        names = [self._material_names[number] for number in item.materials]
+        if len(names) == 1:
+            result["material"] = names[0]
+        else:
+            result["materials"] = names
+        result["to_world"] = _numbers(item.to_world)
         if item.instances is not None:
-            shared["instances"] = self._save("instances", item.instances)
-        slots = [0] if item.mesh.slots is None else sorted({int(slot) for slot in np.unique(item.mesh.slots)})
-        return [
-            {
-                "mesh": self._mesh(item.mesh, slot),
-                "material": self._material_names[item.materials[slot]],
-                **shared,
-            }
-            for slot in slots
-        ]
+            result["instances"] = self._save("instances", item.instances)
+        if item.object_index:
+            result["index"] = item.object_index
+        return result
 
     def _spheres(self, spheres: d.Spheres) -> Json:
-        material = self._material_names[spheres.material]
         if len(spheres.centers) == 1:
-            return {"center": _numbers(spheres.centers[0]), "radius": float(spheres.radii[0]), "material": material}
-        centers = self._save("centers", np.asarray(spheres.centers, np.float64))
-        radii = self._save("radii", np.asarray(spheres.radii, np.float64))
-        return {"centers": centers, "radii": radii, "material": material}
+            result: Json = {"center": _numbers(spheres.centers[0]), "radius": float(spheres.radii[0])}
+        else:
+            centers = self._save("centers", np.asarray(spheres.centers, np.float64))
+            result = {"centers": centers, "radii": self._save("radii", np.asarray(spheres.radii, np.float64))}
+        result["material"] = self._material_names[spheres.material]
+        if spheres.object_index:
+            result["index"] = spheres.object_index
+        return result
 
     def _environment(self, environment: d.Environment) -> Json:
         if environment.image is None:
             return {"radiance": list(environment.radiance)}
-        raise GlimmerError("A world with an image cannot be written to a scene file yet: use a plain background colour")
+        self._folder.mkdir(parents=True, exist_ok=True)
+        write_exr(environment.image, self._folder / "environment.exr")
+        return {
+            "image": f"{self._folder.name}/environment.exr",
+            "strength": environment.radiance[0],
+            "to_world": _numbers(environment.to_world),
+        }
 
 
 def _unique(names: list[str]) -> list[str]:
@@ -142,10 +149,8 @@ def _camera(camera: d.Camera) -> Json:
         result["shift"] = list(camera.shift)
     if camera.lens_radius > 0.0:
         result["lens_radius"], result["focus_distance"] = camera.lens_radius, camera.focus_distance
-    if camera.clip_start > 0.0:
-        result["clip_start"] = camera.clip_start
-    if not isinf(camera.clip_end):
-        result["clip_end"] = camera.clip_end
+    if camera.clip_start > 0.0 or not isinf(camera.clip_end):
+        result["clip"] = [camera.clip_start, None if isinf(camera.clip_end) else camera.clip_end]
     return result
 
 

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One description, two ways into the engine: through ctypes as F12 goes, and through a scene file and the command line.
+Both pictures must have the same bits, for every kind of thing that a description can hold.
+"""
+
+import subprocess
+from dataclasses import replace
+from math import cos, pi, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import OpenImageIO
+import pytest
+from numpy.typing import NDArray
+
+from addon.native import library
+from addon.native.render import Tile, close_all, open_render
+from addon.scene import description as d
+from addon.scene.problems import GlimmerError
+from addon.scene.writer import write_scene
+
+SPP, SEED = 3, 11
+MATERIALS = (
+    d.NamedMaterial("floor", d.Lambert((0.6, 0.5, 0.4))),
+    d.NamedMaterial("plate", d.Mix(0.3, d.Conductor(0.09, f0=(0.9, 0.7, 0.4)), d.Lambert((0.1, 0.2, 0.3)))),
+    d.NamedMaterial("plate", d.Conductor(0.04, eta=(2.6, 2.4, 2.2), k=(3.3, 3.1, 2.9), emission=(0.2, 0.0, 0.1))),
+    d.NamedMaterial("mirror", d.Mirror((0.9, 0.9, 0.8))),
+    d.NamedMaterial("glass", d.Glass(1.5)),
+    d.NamedMaterial("moon", d.Light((5.0, 3.0, 2.0))),
+    d.NamedMaterial("gone", d.Null()),
+)
+FLOOR = d.Mesh(
+    "floor",
+    np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], np.float32),
+    np.array([[0, 1, 2], [0, 2, 3]], np.uint32),
+)
+TETRAHEDRON = d.Mesh(
+    "tetrahedron",
+    np.array([[0, 0, 1], [0.9, 0, -0.3], [-0.5, 0.8, -0.3], [-0.5, -0.8, -0.3]], np.float32),
+    np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]], np.uint32),
+    normals=np.array([[0, 0, 1], [1, 0, 0], [-0.6, 0.8, 0], [0, 0, 0]], np.float32),
+    slots=np.array([0, 1, 1, 0], np.uint16),
+)
+
+
+def place(x: float, y: float, z: float, turn: float = 0.0, size: float = 1.0) -> NDArray[np.float64]:
+    return np.array(
+        [
+            [size * cos(turn), -size * sin(turn), 0, x],
+            [size * sin(turn), size * cos(turn), 0, y],
+            [0, 0, size, z],
+            [0, 0, 0, 1],
+        ]
+    )
+
+
+def camera() -> d.Camera:
+    """Looks along +y and a little down."""
+    tilt = pi / 2 - 0.35
+    to_world = np.array(
+        [[1, 0, 0, 0.2], [0, cos(tilt), -sin(tilt), -7], [0, sin(tilt), cos(tilt), 3.5], [0, 0, 0, 1]], np.float64
+    )
+    return d.Camera(to_world, 55.0, shift=(0.03, -0.02), lens_radius=0.05, focus_distance=7.0, clip_end=60.0)
+
+
+SCENE = d.SceneDescription(
+    film=d.Film(48, 32, crop=(5, 3, 44, 30), filter="blackman_harris", filter_width=1.5),
+    camera=camera(),
+    materials=MATERIALS,
+    objects=(
+        d.Object("floor", FLOOR, (0,), object_index=3),
+        d.Object("one", TETRAHEDRON, (1, 2), place(-1.5, 0, 1, 0.4)),
+        d.Object(
+            "many", TETRAHEDRON, (2, 1), place(0.1, 0, 0), np.array([place(1, 1, 0.5), place(2.5, -1, 0.4, 1, 0.5)])
+        ),
+    ),
+    spheres=(
+        d.Spheres("mirror", np.array([[0.0, 2.0, 1.0]]), np.array([1.0]), 3),
+        d.Spheres("moons", np.array([[-3.0, 3.0, 3.0], [3.0, 2.0, 2.5]]), np.array([0.4, 0.3]), 5, object_index=7),
+        d.Spheres("glass", np.array([[0.3, -2.0, 0.6]]), np.array([0.5]), 4),
+    ),
+    lights=(
+        d.PointLight("point", (2.0, -3.0, 4.0), (20.0, 15.0, 10.0)),
+        d.PointLight("bulb", (-2.0, -3.0, 4.0), (5.0, 5.0, 10.0), radius=0.3),
+        d.SpotLight("spot", (0.0, -4.0, 5.0), (0.1, 0.8, -1.0), (60.0, 60.0, 60.0), 50.0, 0.3, radius=0.1),
+        d.SunLight("sun", (0.3, 0.2, -1.0), (0.5, 0.4, 0.3), 3.0),
+        d.AreaLight("area", place(0, 0, 6, 0.3), (1.5, 0.7), (4.0, 4.0, 5.0), ellipse=True),
+    ),
+    environment=d.Environment((0.2, 0.3, 0.4)),
+    settings=d.RenderSettings(samples=SPP, seed=SEED, max_depth=9),
+)
+
+
+def picture() -> NDArray[np.float32]:
+    return np.random.default_rng(3).random((8, 16, 3), np.float32)
+
+
+VARIANTS = {
+    "plain": SCENE,
+    "fog": replace(SCENE, medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4)),
+    "image": replace(SCENE, environment=d.Environment((0.7, 0.7, 0.7), picture(), place(0, 0, 0, 0.8))),
+    "empty": replace(SCENE, objects=(), spheres=(), lights=()),
+}
+
+
+def read_exr(path: Path) -> NDArray[np.float32]:
+    image = OpenImageIO.ImageInput.open(str(path))
+    assert image is not None, OpenImageIO.geterror()
+    pixels = np.asarray(image.read_image(0, 0, 0, 3, OpenImageIO.FLOAT), np.float32)
+    image.close()
+    return pixels
+
+
+@pytest.fixture
+def engine(library_dir: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.setenv(library.VARIABLE, str(library_dir / "libglimmer.so"))
+    library.load.cache_clear()
+    yield library.load()
+    close_all()
+    library.load.cache_clear()
+
+
+def through_ctypes(scene: d.SceneDescription) -> NDArray[np.float32]:
+    x0, y0, x1, y1 = scene.film.window
+    render, _ = open_render(scene)
+    with render:
+        render.start()
+        render.wait(-1.0)
+        return render.read("combined", Tile(0, 0, x1 - x0, y1 - y0))
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_the_command_line_renders_the_same_bits(engine: Any, glimmer_command: Path, tmp_path: Path, name: str) -> None:
+    scene_file, out = tmp_path / "scene.json", tmp_path / "out.exr"
+    write_scene(VARIANTS[name], scene_file)
+    command = [str(glimmer_command), str(scene_file), "-o", str(out), "--spp", str(SPP), "--seed", str(SEED), "--quiet"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    assert result.returncode == 0, result.stderr
+    direct = through_ctypes(VARIANTS[name])
+    assert np.isfinite(direct).all() and direct.std() > 0.0
+    np.testing.assert_array_equal(read_exr(out), direct)
+
+
+def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    with pytest.raises(GlimmerError, match=r"scene\.json cannot be written"):
+        write_scene(SCENE, blocked / "scene.json")
+
+
+def test_meshes_of_equal_content_are_one() -> None:
+    copy = replace(TETRAHEDRON, vertices=TETRAHEDRON.vertices.copy())
+    other = replace(TETRAHEDRON, slots=None)
+    assert copy.digest == TETRAHEDRON.digest != other.digest
+    objects = tuple(d.Object("o", mesh, (1, 2)) for mesh in (TETRAHEDRON, copy, other))
+    assert len(list(replace(SCENE, objects=objects).meshes())) == 2
