@@ -178,7 +178,13 @@ def host_command(blender: Path | None, script: Path) -> list[str | Path]:
     return [virtual_environment("bpy"), script, "--"]
 
 
-def host_environment(profile: Path) -> dict[str, str]:
+def own_python_first(blender: Path | None) -> dict[str, str]:
+    """Debian's Blender takes the first python3 on PATH for its own, and with it that one's packages."""
+    path = os.environ.get("PATH", os.defpath)
+    return {**os.environ, "PATH": path if blender is None else f"{blender.parent}{os.pathsep}{path}"}
+
+
+def host_environment(profile: Path, blender: Path | None) -> dict[str, str]:
     """An environment in which Blender sees nothing of the user's but a profile of ours, with addon/ as `glimmer`."""
     addons = profile / "scripts" / "addons"
     addons.mkdir(parents=True, exist_ok=True)
@@ -187,7 +193,7 @@ def host_environment(profile: Path) -> dict[str, str]:
         link.unlink(missing_ok=True)
         link.symlink_to(ADDON, target_is_directory=True)
     return {
-        **os.environ,
+        **own_python_first(blender),
         "BLENDER_USER_RESOURCES": str(profile),
         "BLENDER_USER_CONFIG": str(profile / "config"),
         "BLENDER_USER_SCRIPTS": str(profile / "scripts"),
@@ -239,7 +245,7 @@ def render(blender: str | None, options: RenderOptions) -> None:
         if value is not None:
             words += [f"--{name}", str(value)]
     started = time.monotonic()
-    run([*host_command(executable, RENDER_SCRIPT), *words], env=host_environment(BUILD / "profile"))
+    run([*host_command(executable, RENDER_SCRIPT), *words], env=host_environment(BUILD / "profile", executable))
     for picture in pictures:
         if not picture.exists():
             raise BuildError(f"Blender ended without an error and without {picture}")
@@ -253,7 +259,7 @@ def test(blender: str | None, full: bool, extra: Sequence[str]) -> None:
     build()
     python = virtual_environment("test")
     env = {
-        **os.environ,
+        **own_python_first(executable),
         "GLIMMER_BIN": str(COMMAND),
         "GLIMMER_LIB_DIR": str(LIBRARY.parent),
         "GLIMMER_BPY_PYTHON": str(virtual_environment("bpy")),

@@ -176,6 +176,17 @@ def test_a_library_that_cannot_be_loaded_ends_without_a_picture(tmp_path: Path) 
     assert list(tmp_path.iterdir()) == []
 
 
+def test_blender_finds_its_own_python_behind_another_on_the_path(
+    blender: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    command = [str(blender), "-b", "--factory-startup", "--python-expr", "import sys; print('PREFIX', sys.prefix)"]
+    env = build.host_environment(tmp_path, blender)
+    result = subprocess.run(command, env=env, capture_output=True, text=True, check=False, timeout=60)
+    assert "PREFIX " in result.stdout
+    assert f"PREFIX {sys.prefix}" not in result.stdout
+
+
 def test_ci_runs_lint_and_the_tests() -> None:
     script = (ROOT / ".ci" / "run").read_text()
     assert "set -euo pipefail" in script

@@ -69,7 +69,7 @@ def test_blender_renders_headless(words: list[str], blender: Path, tmp_path: Pat
     changed = [str(ROOT / word) if word.startswith("blend_scenes/") else word for word in changed]
     assert changed[-2:] == ["-f", "1"]
     command = [str(blender), *changed[:-2], "--python-exit-code", "1", "--python-expr", smaller, *changed[-2:]]
-    env = build.host_environment(tmp_path / "profile")
+    env = build.host_environment(tmp_path / "profile", blender)
     result = subprocess.run(command, env=env, capture_output=True, text=True, check=False, timeout=280)
     assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
     assert (tmp_path / "frame_0001.png").read_bytes().startswith(b"\x89PNG")
