@@ -49,10 +49,10 @@ class Family:
         statistic = float(((o - e) ** 2 / e).sum())
         self.check(float(stats.chi2.sf(statistic, len(e) - 1)), f"{what}: chi-squared {statistic:.1f} at {len(e) - 1}")
 
-    def mean(self, values: ArrayLike, expected: float, what: str) -> None:
-        """The mean of independent values against its expectation, by z."""
+    def mean(self, values: ArrayLike, expected: float, what: str, rounding: float = 0) -> None:
+        """The mean of independent values against its expectation, by z. rounding: the error float32 adds, relative."""
         v = np.asarray(values, np.float64)
-        error = v.std(ddof=1) / np.sqrt(len(v))
+        error = np.hypot(v.std(ddof=1) / np.sqrt(len(v)), rounding * expected)
         assert error > 0, f"{what}: no spread to test by"
         z = (v.mean() - expected) / error
         self.check(
@@ -61,24 +61,39 @@ class Family:
         )
 
 
-def bin_integrals(density: Callable[[Array, Array], Array], nx: int, ny: int, per_bin: int = 16) -> Array:
-    """Integral of density(x, y) over each of nx times ny equal bins of the unit square (Gauss-Legendre)."""
-    nodes, weights = np.polynomial.legendre.leggauss(per_bin)
+def bin_integrals(
+    density: Callable[[Array, Array], Array], nx: int, ny: int, per_bin: tuple[int, int] = (16, 16)
+) -> Array:
+    """Integrals of density(x, y) over each of nx times ny equal bins of the unit square (Gauss-Legendre).
 
-    def points(bins: int) -> tuple[Array, Array]:
+    density takes and gives shape (n), or gives (n, k) for k densities at once: then the result is (nx, ny, k).
+    """
+
+    def points(bins: int, order: int) -> tuple[Array, Array]:
+        nodes, weights = np.polynomial.legendre.leggauss(order)
         x = (np.arange(bins)[:, None] + (nodes + 1) / 2) / bins
         return x.ravel(), np.tile(weights / (2 * bins), bins)
 
-    (x, wx), (y, wy) = points(nx), points(ny)
-    values = density(*(a.ravel() for a in np.meshgrid(x, y, indexing="ij"))).reshape(len(x), len(y))
-    weighted = np.asarray(values, np.float64) * wx[:, None] * wy
-    return weighted.reshape(nx, per_bin, ny, per_bin).sum(axis=(1, 3))
+    (x, wx), (y, wy) = points(nx, per_bin[0]), points(ny, per_bin[1])
+    values = np.asarray(density(*(a.ravel() for a in np.meshgrid(x, y, indexing="ij"))), np.float64)
+    values = values.reshape(nx, per_bin[0], ny, per_bin[1], *values.shape[1:])
+    sums: Array = np.einsum("aibj...,ai,bj->ab...", values, wx.reshape(nx, -1), wy.reshape(ny, -1))
+    return sums
 
 
 def histogram(x: ArrayLike, y: ArrayLike, nx: int, ny: int) -> Array:
     """Counts in the same bins; what lies outside the square by rounding counts at its edge."""
     cells = [np.clip((np.asarray(v) * n).astype(int), 0, n - 1) for v, n in ((x, nx), (y, ny))]
     return np.bincount(cells[0] * ny + cells[1], minlength=nx * ny).reshape(nx, ny)
+
+
+def single(values: ArrayLike) -> Array:
+    """As the engine takes them."""
+    return np.asarray(values, np.float32)
+
+
+def double(values: ArrayLike) -> Array:
+    return np.asarray(values, np.float64)
 
 
 def relative_error(values: ArrayLike, reference: ArrayLike) -> Array:
