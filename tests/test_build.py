@@ -161,6 +161,22 @@ def test_render_writes_a_png_and_an_exr_and_prints_their_paths(tmp_path: Path) -
     assert (tmp_path / "picture.exr").read_bytes().startswith(b"\x76\x2f\x31\x01")
 
 
+def test_without_a_blender_it_renders_in_the_bpy_module(bpy_python: Path, tmp_path: Path) -> None:
+    assert build.virtual_environment("bpy") == bpy_python
+    programs = tmp_path / "bin"
+    programs.mkdir()
+    for folder in reversed(os.environ["PATH"].split(os.pathsep)):
+        for program in Path(folder).glob("*"):
+            (programs / program.name).unlink(missing_ok=True)
+            (programs / program.name).symlink_to(program)
+    (programs / "blender").unlink(missing_ok=True)
+    stem = tmp_path / "picture"
+    result = build_py("render", "--samples", "1", "--resolution", "10", "--output", stem, PATH=str(programs))
+    assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
+    assert "Blender quit" not in result.stdout
+    assert {path.name for path in tmp_path.iterdir()} == {"bin", "picture.png", "picture.exr"}
+
+
 def test_a_scene_that_cannot_be_read_ends_without_a_picture(tmp_path: Path) -> None:
     scene = tmp_path / "broken.blend"
     scene.write_bytes(b"not a blend file")

@@ -10,7 +10,6 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import addon_utils
 import bpy
 
 
@@ -39,6 +38,8 @@ def save(scene: "bpy.types.Scene", path: Path, file_format: str, depth: str) -> 
 
 
 def main(argv: Sequence[str]) -> None:
+    import addon_utils  # the bpy module brings it with itself: not there before
+
     given = parse(argv)
     if addon_utils.enable("glimmer", default_set=False) is None:
         raise RenderError("the add-on `glimmer` did not start; the reason stands above")
