@@ -40,7 +40,7 @@ def placed_objects(depsgraph: bpy.types.Depsgraph, readers: tuple[BulkReader, ..
     by_loop: set[int] = set()
     bulk: dict[int, Placed] = {}
     for item in depsgraph.objects:
-        if item.is_instancer:
+        if _may_have_instances(item):
             found = next((result for reader in readers if (result := reader(item, depsgraph)) is not None), None)
             if found is None:
                 by_loop.add(item.original.as_pointer())
@@ -52,6 +52,11 @@ def placed_objects(depsgraph: bpy.types.Depsgraph, readers: tuple[BulkReader, ..
     yield from bulk.values()
     if by_loop:
         yield from _by_loop(depsgraph, by_loop)
+
+
+def _may_have_instances(item: bpy.types.Object) -> bool:
+    """`is_instancer` knows of particles, vertices and collections, not of Geometry Nodes."""
+    return item.is_instancer or any(modifier.type == "NODES" for modifier in item.modifiers)
 
 
 def _by_loop(depsgraph: bpy.types.Depsgraph, instancers: set[int]) -> Iterator[Placed]:
