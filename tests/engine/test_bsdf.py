@@ -203,17 +203,14 @@ def test_a_mix_is_the_weighted_sum() -> None:
     assert relative_error(f, np.sum(parts, axis=0)).max() <= 8 * ROUNDING
     select, albedo, specular, has_specular = probe.bsdf_describe(MIX)
     assert select.sum() == pytest.approx(1, abs=4 * ROUNDING)
-    pdfs = [
-        s * probe.bsdf_eval([replace(m, weight=1)], wo, wi)[1].astype(np.float64)
-        for s, m in zip(select, MIX, strict=True)
-    ]
+    pdfs = [p * probe.bsdf_eval([lobe], wo, wi)[1] for p, lobe in zip(select, MIX, strict=True)]
     assert relative_error(pdf, np.sum(pdfs, axis=0)).max() <= 8 * ROUNDING
     assert (specular, has_specular) == (False, False)
     assert ((albedo > 0) & (albedo < 1)).all()
 
 
 def test_specular_lobes_in_a_mix() -> None:
-    """Mirror, smooth metal and Lambert: deltas come with weight / probability of selection, and are drawn that often."""
+    """Mirror, smooth metal and Lambert: deltas come with weight / probability of selection, drawn that often."""
     mix = [
         Lobe(probe.MIRROR, weight=0.25, color=(0.9, 0.8, 0.7)),
         replace(GOLD, weight=0.35, alpha=9e-5),

@@ -41,7 +41,8 @@ inline std::optional<DirectionSample> sample_sphere(const Vec3d &to_center, doub
         const double root = std::sqrt((omc - one_minus_cos) * (2 - omc - one_minus_cos));
         distance = (d - radius) * (d + radius) / (d * (cosine + root));
     } else {
-        distance = d * cosine + std::sqrt(std::max(0.0, radius * radius - d2 * sine * sine));
+        // On the sphere itself, outward, the far side is the point: 0 but for rounding.
+        distance = std::max(0.0, d * cosine + std::sqrt(std::max(0.0, radius * radius - d2 * sine * sine)));
     }
     return DirectionSample{Vec3f(wi), static_cast<float>(distance), pdf};
 }
