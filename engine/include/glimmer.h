@@ -11,9 +11,9 @@
  * Memory: what is handed in is copied before the call returns. Strings are UTF-8 and end in 0.
  * Structs: every description starts with struct_size, set by the caller to sizeof(the struct); fill it from
  *     glimmer_*_init(), which also sets the defaults, so that a newer library understands an older caller.
- * Threads: calls on different objects may run at the same time. Calls on one mesh, image or scene must not overlap, except
- *     that a committed scene may be used by many renders. Every call on a render may be made from any thread.
- * Units: one length unit throughout; angles in degrees; colours linear RGB (Rec. 709 primaries); radiance in W/(m^2 sr),
+ * Threads: calls on different objects may run at the same time. Calls on one mesh, image or scene must not overlap,
+ * except that a committed scene may be used by many renders. Every call on a render may be made from any thread. Units:
+ * one length unit throughout; angles in degrees; colours linear RGB (Rec. 709 primaries); radiance in W/(m^2 sr),
  *     intensity in W/sr, irradiance in W/m^2; sigma in inverse lengths. Matrices are row-major with column vectors.
  * Directions: right-handed world. A camera looks along its -z with y up, x to the right.
  */
@@ -63,15 +63,15 @@ typedef enum glimmer_format { GLIMMER_FLOAT32 = 0, GLIMMER_FLOAT64 = 1 } glimmer
 
 typedef struct glimmer_mesh_desc {
     size_t struct_size;
-    const char *name;           /* for messages; may be null */
-    glimmer_format format;      /* of vertices, normals and uvs */
-    size_t vertex_count;        /* >= 3 */
-    const void *vertices;       /* (vertex_count, 3), finite */
-    const void *normals;        /* (vertex_count, 3) or null for flat shading; a zero normal means the face's own */
-    const void *uvs;            /* (vertex_count, 2) or null */
-    size_t triangle_count;      /* >= 1 */
-    const uint32_t *triangles;  /* (triangle_count, 3), each below vertex_count */
-    const uint16_t *slots;      /* (triangle_count): which of the object's materials; null: all use the first */
+    const char *name;          /* for messages; may be null */
+    glimmer_format format;     /* of vertices, normals and uvs */
+    size_t vertex_count;       /* >= 3 */
+    const void *vertices;      /* (vertex_count, 3), finite */
+    const void *normals;       /* (vertex_count, 3) or null for flat shading; a zero normal means the face's own */
+    const void *uvs;           /* (vertex_count, 2) or null */
+    size_t triangle_count;     /* >= 1 */
+    const uint32_t *triangles; /* (triangle_count, 3), each below vertex_count */
+    const uint16_t *slots;     /* (triangle_count): which of the object's materials; null: all use the first */
 } glimmer_mesh_desc;
 
 GLIMMER_API void glimmer_mesh_init(glimmer_mesh_desc *desc);
@@ -82,8 +82,8 @@ GLIMMER_API void glimmer_mesh_destroy(glimmer_mesh *mesh); /* null is allowed, h
 /* ---- Images --------------------------------------------------------------------------------------------------- */
 
 /* pixels: (height, width, channels) linear, top row first, finite, >= 0. channels: 3 or 4 (the fourth is ignored). */
-GLIMMER_API glimmer_result glimmer_image_create(uint32_t width, uint32_t height, uint32_t channels,
-                                                const float *pixels, glimmer_image **image);
+GLIMMER_API glimmer_result glimmer_image_create(uint32_t width, uint32_t height, uint32_t channels, const float *pixels,
+                                                glimmer_image **image);
 GLIMMER_API void glimmer_image_destroy(glimmer_image *image);
 
 /* ---- Scene ---------------------------------------------------------------------------------------------------- */
@@ -92,20 +92,21 @@ GLIMMER_API glimmer_result glimmer_scene_create(glimmer_scene **scene);
 GLIMMER_API void glimmer_scene_destroy(glimmer_scene *scene);
 
 typedef enum glimmer_material_type {
-    GLIMMER_LAMBERT = 0,      /* color = albedo, 0 to 1 */
-    GLIMMER_MIRROR = 1,       /* color = reflectance, 0 to 1 */
-    GLIMMER_CONDUCTOR = 2,    /* alpha; eta and k, or f0 when use_f0; masking */
-    GLIMMER_GLASS = 3,        /* ior > 0; schlick_fresnel */
-    GLIMMER_REPORT_METAL = 4, /* color = albedo, f0, alpha: the student report's sum of both lobes, not energy conserving */
-    GLIMMER_MIX = 5,          /* weight of material a, the rest of b; neither may be light, glass or null */
-    GLIMMER_LIGHT = 6,        /* color = radiance, >= 0: opaque, black, both sides */
-    GLIMMER_NULL = 7          /* not there */
+    GLIMMER_LAMBERT = 0,   /* color = albedo, 0 to 1 */
+    GLIMMER_MIRROR = 1,    /* color = reflectance, 0 to 1 */
+    GLIMMER_CONDUCTOR = 2, /* alpha; eta and k, or f0 when use_f0; masking */
+    GLIMMER_GLASS = 3,     /* ior > 0; schlick_fresnel */
+    GLIMMER_REPORT_METAL =
+        4,             /* color = albedo, f0, alpha: the student report's sum of both lobes, not energy conserving */
+    GLIMMER_MIX = 5,   /* weight of material a, the rest of b; neither may be light, glass or null */
+    GLIMMER_LIGHT = 6, /* color = radiance, >= 0: opaque, black, both sides */
+    GLIMMER_NULL = 7   /* not there */
 } glimmer_material_type;
 
 typedef enum glimmer_masking {
-    GLIMMER_SMITH = 0,           /* height-correlated Smith */
+    GLIMMER_SMITH = 0, /* height-correlated Smith */
     GLIMMER_SMITH_SEPARABLE = 1,
-    GLIMMER_SCHLICK_GGX = 2      /* the report's, k = alpha / 2 */
+    GLIMMER_SCHLICK_GGX = 2 /* the report's, k = alpha / 2 */
 } glimmer_masking;
 
 typedef struct glimmer_material_desc {
@@ -119,10 +120,10 @@ typedef struct glimmer_material_desc {
     float f0[3];        /* 0 to 1 (Schlick) */
     glimmer_masking masking;
     float ior;
-    int schlick_fresnel;  /* glass: Schlick in place of the exact Fresnel equations */
-    float emission[3];    /* radiance added on both sides, >= 0; not for light, glass and null */
-    float weight;         /* mix: 0 to 1 */
-    uint32_t a, b;        /* mix: materials added before */
+    int schlick_fresnel; /* glass: Schlick in place of the exact Fresnel equations */
+    float emission[3];   /* radiance added on both sides, >= 0; not for light, glass and null */
+    float weight;        /* mix: 0 to 1 */
+    uint32_t a, b;       /* mix: materials added before */
 } glimmer_material_desc;
 
 GLIMMER_API void glimmer_material_init(glimmer_material_desc *desc);
@@ -133,13 +134,13 @@ typedef struct glimmer_object_desc {
     size_t struct_size;
     const char *name; /* for messages; may be null */
     glimmer_mesh *mesh;
-    size_t material_count;         /* >= 1 and above every slot of the mesh */
-    const uint32_t *materials;     /* (material_count) */
-    double to_world[16];           /* affine; applied after the instance's own matrix; default identity */
-    size_t instance_count;         /* used when instances is not null */
+    size_t material_count;     /* >= 1 and above every slot of the mesh */
+    const uint32_t *materials; /* (material_count) */
+    double to_world[16];       /* affine; applied after the instance's own matrix; default identity */
+    size_t instance_count;     /* used when instances is not null */
     glimmer_format instance_format;
-    const void *instances;         /* (instance_count, 3, 4), or null for a single one at to_world */
-    uint32_t object_index;         /* what the object index AOV shows */
+    const void *instances;          /* (instance_count, 3, 4), or null for a single one at to_world */
+    uint32_t object_index;          /* what the object index AOV shows */
     const uint32_t *object_indices; /* (instance_count) of them, or null */
 } glimmer_object_desc;
 
@@ -162,10 +163,12 @@ GLIMMER_API glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const
 
 /* Lamps, as Blender has them: they shine, cast no shadow, hide nothing, and the camera does not see them. */
 typedef enum glimmer_light_type {
-    GLIMMER_POINT = 0, /* position, color = intensity, radius (0: a point; else a sphere of radiance intensity/(pi r^2)) */
-    GLIMMER_SPOT = 1,  /* the same, with direction, angle (full cone, 0 to 180) and blend (0 to 1, of the cone) */
-    GLIMMER_SUN = 2,   /* direction the light travels in, color = irradiance at normal incidence, angle (full, 0 to 180) */
-    GLIMMER_AREA = 3   /* to_world (rigid), size, ellipse; color = radiance; emits along its -z */
+    GLIMMER_POINT =
+        0, /* position, color = intensity, radius (0: a point; else a sphere of radiance intensity/(pi r^2)) */
+    GLIMMER_SPOT = 1, /* the same, with direction, angle (full cone, 0 to 180) and blend (0 to 1, of the cone) */
+    GLIMMER_SUN =
+        2, /* direction the light travels in, color = irradiance at normal incidence, angle (full, 0 to 180) */
+    GLIMMER_AREA = 3 /* to_world (rigid), size, ellipse; color = radiance; emits along its -z */
 } glimmer_light_type;
 
 typedef struct glimmer_light_desc {
@@ -226,21 +229,22 @@ GLIMMER_API const char *glimmer_scene_warnings(glimmer_scene *scene);
 
 /* ---- Render --------------------------------------------------------------------------------------------------- */
 
-/* The passes a render can give. One table in the engine drives them; see glimmer_pass_info. Pixels: y, x, channel, the top row of
- * the crop first. */
+/* The passes a render can give. One table in the engine drives them; see glimmer_pass_info. Pixels: y, x, channel, the
+ * top row of the crop first. */
 typedef enum glimmer_pass {
-    GLIMMER_PASS_COMBINED = 0,       /* RGB radiance */
-    GLIMMER_PASS_STDERR = 1,         /* RGB standard error of the combined mean; NaN below 2 samples */
-    GLIMMER_PASS_ALBEDO = 2,         /* RGB of the first non-specular surface */
-    GLIMMER_PASS_NORMAL = 3,         /* XYZ world shading normal of the first surface */
-    GLIMMER_PASS_DEPTH = 4,          /* Z: distance along the axis to the first surface, mean over the samples that hit; 1e10 if none */
-    GLIMMER_PASS_EMISSION = 5,       /* RGB: light seen directly, also through mirrors and glass */
-    GLIMMER_PASS_DIRECT = 6,         /* RGB: light scattered once, by a surface */
-    GLIMMER_PASS_INDIRECT = 7,       /* RGB: light scattered more than once, first by a surface */
-    GLIMMER_PASS_FOG = 8,            /* RGB: light that was last scattered by the fog before it came to the camera */
-    GLIMMER_PASS_OBJECT_INDEX = 9,   /* X, of the first sample's first surface; 0 if none */
-    GLIMMER_PASS_MATERIAL_INDEX = 10,/* X, 1 + material, 0 if none */
-    GLIMMER_PASS_SAMPLE_COUNT = 11,  /* X */
+    GLIMMER_PASS_COMBINED = 0, /* RGB radiance */
+    GLIMMER_PASS_STDERR = 1,   /* RGB standard error of the combined mean; NaN below 2 samples */
+    GLIMMER_PASS_ALBEDO = 2,   /* RGB of the first non-specular surface */
+    GLIMMER_PASS_NORMAL = 3,   /* XYZ world shading normal of the first surface */
+    GLIMMER_PASS_DEPTH =
+        4, /* Z: distance along the axis to the first surface, mean over the samples that hit; 1e10 if none */
+    GLIMMER_PASS_EMISSION = 5,        /* RGB: light seen directly, also through mirrors and glass */
+    GLIMMER_PASS_DIRECT = 6,          /* RGB: light scattered once, by a surface */
+    GLIMMER_PASS_INDIRECT = 7,        /* RGB: light scattered more than once, first by a surface */
+    GLIMMER_PASS_FOG = 8,             /* RGB: light that was last scattered by the fog before it came to the camera */
+    GLIMMER_PASS_OBJECT_INDEX = 9,    /* X, of the first sample's first surface; 0 if none */
+    GLIMMER_PASS_MATERIAL_INDEX = 10, /* X, 1 + material, 0 if none */
+    GLIMMER_PASS_SAMPLE_COUNT = 11,   /* X */
     GLIMMER_PASS_COUNT = 12
 } glimmer_pass;
 
@@ -261,16 +265,16 @@ GLIMMER_API const glimmer_integrator_info_t *glimmer_integrator_info(uint32_t in
 
 typedef struct glimmer_render_desc {
     size_t struct_size;
-    const char *integrator;  /* null: the default */
-    uint64_t samples;        /* per pixel; 0: no limit */
-    double seconds;          /* render wall time; 0: no limit */
-    double target_error;     /* relMSE (upper end of its interval); 0: no limit. With no limit at all: 64 samples */
+    const char *integrator; /* null: the default */
+    uint64_t samples;       /* per pixel; 0: no limit */
+    double seconds;         /* render wall time; 0: no limit */
+    double target_error;    /* relMSE (upper end of its interval); 0: no limit. With no limit at all: 64 samples */
     uint64_t seed;
-    uint32_t threads;        /* 0: all */
-    uint32_t tile_size;      /* pixels; 0: 64. Changes no pixel */
-    int64_t max_depth;       /* scattering vertices of a path; -1: no limit (a limit is a bias, and named as one) */
-    int64_t max_scatter;     /* the same for volume vertices alone */
-    uint32_t passes;         /* bit set of (1 << glimmer_pass); combined is always there */
+    uint32_t threads;    /* 0: all */
+    uint32_t tile_size;  /* pixels; 0: 64. Changes no pixel */
+    int64_t max_depth;   /* scattering vertices of a path; -1: no limit (a limit is a bias, and named as one) */
+    int64_t max_scatter; /* the same for volume vertices alone */
+    uint32_t passes;     /* bit set of (1 << glimmer_pass); combined is always there */
 } glimmer_render_desc;
 
 GLIMMER_API void glimmer_render_init(glimmer_render_desc *desc);
@@ -294,16 +298,17 @@ GLIMMER_API glimmer_result glimmer_render_pause(glimmer_render *render);
 GLIMMER_API glimmer_result glimmer_render_resume(glimmer_render *render);
 /* Asks the workers to stop; within 100 ms they have. What was finished can still be read. */
 GLIMMER_API glimmer_result glimmer_render_cancel(glimmer_render *render);
-/* Returns when the render has ended or after `seconds` (negative: no limit). The result of a failed render is its failure. */
+/* Returns when the render has ended or after `seconds` (negative: no limit). The result of a failed render is its
+ * failure. */
 GLIMMER_API glimmer_result glimmer_render_wait(glimmer_render *render, double seconds);
 
 typedef struct glimmer_progress {
     size_t struct_size;
     glimmer_render_state state;
-    uint64_t samples;         /* per pixel, of all pixels */
-    double fraction;          /* 0 to 1, of the limit that will be met first; 0 when nothing tells */
-    double seconds;           /* wall time in the render so far, pauses left out */
-    double seconds_left;      /* estimate; negative when nothing tells */
+    uint64_t samples;    /* per pixel, of all pixels */
+    double fraction;     /* 0 to 1, of the limit that will be met first; 0 when nothing tells */
+    double seconds;      /* wall time in the render so far, pauses left out */
+    double seconds_left; /* estimate; negative when nothing tells */
     double cpu_seconds;
     double relmse, relmse_low, relmse_high; /* NaN when not known */
     uint64_t rays;
@@ -323,16 +328,18 @@ typedef struct glimmer_tile {
 /* The next tile whose pixels changed since it was last handed out; *found is 0 when there is none now. */
 GLIMMER_API glimmer_result glimmer_render_next_tile(glimmer_render *render, glimmer_tile *tile, int *found);
 
-/* The running mean of a rectangle of a pass, at any time (also while rendering: every pixel is then the mean of whole samples).
- * pixels: (height, width, channels of the pass) float32, value_count in all, which is checked. */
-GLIMMER_API glimmer_result glimmer_render_read(glimmer_render *render, glimmer_pass pass, uint32_t x, uint32_t y, uint32_t width,
-                                               uint32_t height, float *pixels, size_t value_count);
+/* The running mean of a rectangle of a pass, at any time (also while rendering: every pixel is then the mean of whole
+ * samples). pixels: (height, width, channels of the pass) float32, value_count in all, which is checked. */
+GLIMMER_API glimmer_result glimmer_render_read(glimmer_render *render, glimmer_pass pass, uint32_t x, uint32_t y,
+                                               uint32_t width, uint32_t height, float *pixels, size_t value_count);
 
-/* The report of SCENE_FORMAT.md as JSON (load and build seconds are the scene's own); valid until the next call on this render. */
+/* The report of SCENE_FORMAT.md as JSON (load and build seconds are the scene's own); valid until the next call on this
+ * render. */
 GLIMMER_API glimmer_result glimmer_render_report(glimmer_render *render, const char **json);
 
-/* The state of a paused or ended render (or one that has not started), to be taken up by a render of the same scene, seed and
- * integrator; ends with the very bits of an uninterrupted one. *data is valid until the next call on this render. */
+/* The state of a paused or ended render (or one that has not started), to be taken up by a render of the same scene,
+ * seed and integrator; ends with the very bits of an uninterrupted one. *data is valid until the next call on this
+ * render. */
 GLIMMER_API glimmer_result glimmer_render_save(glimmer_render *render, const void **data, size_t *size);
 /* Before glimmer_render_start. */
 GLIMMER_API glimmer_result glimmer_render_load(glimmer_render *render, const void *data, size_t size);

@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-// A word at the start of every handle tells a null, foreign or destroyed one from a good one (as well as a pointer can be told).
+// A word at the start of every handle tells a null, foreign or destroyed one from a good one (as well as a pointer can
+// be told).
 struct glimmer_mesh {
     static constexpr uint32_t kMagic = 0x4d455348;
     uint32_t magic = kMagic;

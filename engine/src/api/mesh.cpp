@@ -12,7 +12,8 @@ struct Array {
     const void *data;
     glimmer_format format;
     double operator[](size_t i) const {
-        return format == GLIMMER_FLOAT64 ? static_cast<const double *>(data)[i] : double(static_cast<const float *>(data)[i]);
+        return format == GLIMMER_FLOAT64 ? static_cast<const double *>(data)[i]
+                                         : double(static_cast<const float *>(data)[i]);
     }
 };
 
@@ -34,8 +35,8 @@ std::shared_ptr<Mesh> make_mesh(const glimmer_mesh_desc &d) {
     for (size_t i = 0; i < d.vertex_count; ++i) {
         const Vec3d v{vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]};
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || max_abs(v) > 1e30)
-            fail_argument(what + ": vertex " + std::to_string(i) + " is (" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) +
-                          "); allowed: numbers up to 1e30");
+            fail_argument(what + ": vertex " + std::to_string(i) + " is (" + text(v.x) + ", " + text(v.y) + ", " +
+                          text(v.z) + "); allowed: numbers up to 1e30");
         low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
         high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
     }
@@ -137,8 +138,9 @@ glimmer_result glimmer_image_create(uint32_t width, uint32_t height, uint32_t ch
             const float *p = pixels + i * channels;
             for (size_t c = 0; c < 3; ++c)
                 if (!(p[c] >= 0 && p[c] < kInfinity))
-                    fail_argument("image: the pixel at x " + std::to_string(i % width) + ", y " + std::to_string(i / width) +
-                                  " holds " + text(double(p[c])) + "; allowed: finite numbers from 0");
+                    fail_argument("image: the pixel at x " + std::to_string(i % width) + ", y " +
+                                  std::to_string(i / width) + " holds " + text(double(p[c])) +
+                                  "; allowed: finite numbers from 0");
             handle->image->pixels.push_back({p[0], p[1], p[2]});
         }
         *image = handle.release();

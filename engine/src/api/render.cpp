@@ -20,7 +20,8 @@ uint32_t find_integrator(const char *name) {
 
 uint32_t depth_limit(int64_t value, const char *what) {
     if (value < -1)
-        fail_argument(std::string("render: ") + what + " is " + std::to_string(value) + "; allowed: -1 (no limit) and up");
+        fail_argument(std::string("render: ") + what + " is " + std::to_string(value) +
+                      "; allowed: -1 (no limit) and up");
     constexpr auto most = std::numeric_limits<uint32_t>::max();
     return value < 0 || value >= int64_t(most) ? most : uint32_t(value);
 }
@@ -129,9 +130,11 @@ glimmer_result glimmer_render_read(glimmer_render *render, glimmer_pass pass, ui
         if (uint32_t(pass) >= GLIMMER_PASS_COUNT)
             fail_argument("read: pass " + std::to_string(int(pass)) + " is not known; allowed: 0 to " +
                           std::to_string(GLIMMER_PASS_COUNT - 1));
-        const bool always = pass == GLIMMER_PASS_COMBINED || pass == GLIMMER_PASS_STDERR || pass == GLIMMER_PASS_SAMPLE_COUNT;
+        const bool always =
+            pass == GLIMMER_PASS_COMBINED || pass == GLIMMER_PASS_STDERR || pass == GLIMMER_PASS_SAMPLE_COUNT;
         if (!always && !(film.passes() & (1u << pass)))
-            fail_argument(std::string("read: the pass \"") + kPasses[pass].name + "\" was not asked for when the render was made");
+            fail_argument(std::string("read: the pass \"") + kPasses[pass].name +
+                          "\" was not asked for when the render was made");
         if (x > film.width() || width > film.width() - x || y > film.height() || height > film.height() - y)
             fail_argument("read: the rectangle leaves the picture of " + std::to_string(film.width()) + " x " +
                           std::to_string(film.height()));

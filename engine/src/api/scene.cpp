@@ -212,8 +212,8 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         out.mesh = checked(d.mesh, "mesh").mesh;
         check_affine(d.to_world, what + ": to_world");
         if (!d.materials || d.material_count < out.mesh->slot_count || d.material_count > 65536)
-            fail_argument(what + ": " + std::to_string(d.materials ? d.material_count : 0) + " material(s); its mesh needs " +
-                          std::to_string(out.mesh->slot_count));
+            fail_argument(what + ": " + std::to_string(d.materials ? d.material_count : 0) +
+                          " material(s); its mesh needs " + std::to_string(out.mesh->slot_count));
         for (size_t i = 0; i < d.material_count; ++i) {
             if (d.materials[i] >= s.materials.size())
                 fail_argument(what + ": material " + std::to_string(d.materials[i]) + " was not added");
@@ -223,12 +223,14 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
             fail_argument(what + ": instance_format is " + std::to_string(int(d.instance_format)) +
                           "; allowed: float32 (0), float64 (1)");
         if (d.instances && d.instance_count > 0xfffffff0u)
-            fail_argument(what + ": instance_count is " + std::to_string(d.instance_count) + "; allowed: up to 4294967280");
+            fail_argument(what + ": instance_count is " + std::to_string(d.instance_count) +
+                          "; allowed: up to 4294967280");
         out.instances = place_instances(d, what);
         if (d.object_indices)
             out.object_indices.assign(d.object_indices, d.object_indices + out.instances.size());
         if (out.object_indices.size() < 2)
-            out.object_indices.assign(1, d.object_indices && !out.instances.empty() ? d.object_indices[0] : d.object_index);
+            out.object_indices.assign(1, d.object_indices && !out.instances.empty() ? d.object_indices[0]
+                                                                                    : d.object_index);
         s.objects.push_back(std::move(out));
     });
 }
@@ -261,8 +263,8 @@ glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_sph
         for (size_t i = 0; i < d.count; ++i) {
             const Vec3d c{d.centers[3 * i], d.centers[3 * i + 1], d.centers[3 * i + 2]};
             if (!(max_abs(c) < 1e30) || std::isnan(c.x + c.y + c.z))
-                fail_argument(what + ": center " + std::to_string(i) + " is (" + text(c.x) + ", " + text(c.y) + ", " + text(c.z) +
-                              "); allowed: numbers up to 1e30");
+                fail_argument(what + ": center " + std::to_string(i) + " is (" + text(c.x) + ", " + text(c.y) + ", " +
+                              text(c.z) + "); allowed: numbers up to 1e30");
             out.centers.push_back(c);
         }
         for (size_t i = 0; i < d.radius_count; ++i) {
@@ -325,7 +327,8 @@ glimmer_result glimmer_scene_set_environment(glimmer_scene *scene, const float c
     });
 }
 
-glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3], const double sigma_s[3], double g) {
+glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3], const double sigma_s[3],
+                                        double g) {
     return guarded([&] {
         SceneDescription &s = open_scene(scene);
         if (!sigma_a || !sigma_s)
@@ -367,7 +370,8 @@ glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_came
             fail_argument("camera: focus_distance is 0; a lens with a radius needs one above 0");
         check_least(d.clip_start, 0, "camera: clip_start");
         if (!(d.clip_end > d.clip_start))
-            fail_argument("camera: clip_end is " + text(d.clip_end) + "; allowed: above clip_start, " + text(d.clip_start));
+            fail_argument("camera: clip_end is " + text(d.clip_end) + "; allowed: above clip_start, " +
+                          text(d.clip_start));
         s.camera = d;
     });
 }
@@ -392,14 +396,16 @@ glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_d
         check_range(d.width, 1, 65536, "film: width");
         check_range(d.height, 1, 65536, "film: height");
         const bool whole = d.crop[0] == 0 && d.crop[1] == 0 && d.crop[2] == 0 && d.crop[3] == 0;
-        if (!whole && !(d.crop[0] < d.crop[2] && d.crop[2] <= d.width && d.crop[1] < d.crop[3] && d.crop[3] <= d.height))
+        if (!whole &&
+            !(d.crop[0] < d.crop[2] && d.crop[2] <= d.width && d.crop[1] < d.crop[3] && d.crop[3] <= d.height))
             fail_argument("film: crop is " + std::to_string(d.crop[0]) + " " + std::to_string(d.crop[1]) + " " +
                           std::to_string(d.crop[2]) + " " + std::to_string(d.crop[3]) +
                           "; allowed: x0 < x1 <= width, y0 < y1 <= height");
         if (uint32_t(d.filter) > GLIMMER_BLACKMAN_HARRIS)
             fail_argument("film: filter " + std::to_string(int(d.filter)) + " is not known; allowed: 0, 1");
         if (!(d.filter_width > 0 && d.filter_width <= 64))
-            fail_argument("film: filter_width is " + text(double(d.filter_width)) + "; allowed: above 0, up to 64 pixels");
+            fail_argument("film: filter_width is " + text(double(d.filter_width)) +
+                          "; allowed: above 0, up to 64 pixels");
         s.film = d;
     });
 }

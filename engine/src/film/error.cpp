@@ -12,8 +12,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Student's t, 0.975, for 2 to 7 degrees of freedom (index: degrees).
 constexpr std::array<double, kReplicates> kStudent{0, 0, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646};
 
-/// What one pixel adds to the relMSE of the picture made of all replicates but `left_out` (kReplicates: none), at the error that all
-/// samples would have.
+/// What one pixel adds to the relMSE of the picture made of all replicates but `left_out` (kReplicates: none), at the
+/// error that all samples would have.
 double pixel_error(const Replicates &sums, uint64_t n, uint32_t used, uint32_t left_out, double epsilon) {
     double result = 0;
     for (int c = 0; c < 3; ++c) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Running sums of everything that was asked for. The radiance is kept in up to 8 independent replicates (sample s belongs to
-// replicate s mod 8), from whose spread the standard errors come.
+// Running sums of everything that was asked for. The radiance is kept in up to 8 independent replicates (sample s
+// belongs to replicate s mod 8), from whose spread the standard errors come.
 #pragma once
 
 #include "film/passes.h"
@@ -78,8 +78,8 @@ class Film {
     std::vector<float> hits_;                                 ///< samples with a depth
 };
 
-/// Mean and variance of replicate sums after n samples. Var(mean) = sum_r n_r (m_r - m)^2 / ((R - 1) n), unbiased when samples of
-/// one pixel are independent and their replicates hold n_r of them.
+/// Mean and variance of replicate sums after n samples. Var(mean) = sum_r n_r (m_r - m)^2 / ((R - 1) n), unbiased when
+/// samples of one pixel are independent and their replicates hold n_r of them.
 PixelEstimate estimate_pixel(const Replicates &sums, uint64_t n);
 
 class Film::Tile {

@@ -32,8 +32,7 @@ void sphere_bounds(const RTCBoundsFunctionArguments *args) {
 
 /// The first root within the ray's range, as a float that stays inside it.
 std::optional<float> first_root(const Sphere &sphere, const RTCRay &ray) {
-    const auto roots =
-        intersect_sphere(sphere, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z});
+    const auto roots = intersect_sphere(sphere, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z});
     if (!roots)
         return std::nullopt;
     if (roots->near > double(ray.tnear) && roots->near <= double(ray.tfar))

@@ -18,8 +18,8 @@ struct Instance {
     std::array<Vec3f, 3> linear; ///< rows
     Vec3f translation;
     std::array<Vec3f, 3> normal_matrix; ///< rows; cofactors of the linear part, scaled: carries outward normals
-    uint32_t object;       ///< of the scene: holds the materials
-    uint32_t object_index; ///< for the AOV
+    uint32_t object;                    ///< of the scene: holds the materials
+    uint32_t object_index;              ///< for the AOV
 
     Vec3f normal_to_world(const Vec3f &n) const {
         return Vec3f(dot(normal_matrix[0], n), dot(normal_matrix[1], n), dot(normal_matrix[2], n));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Embree, reached only through this table of function pointers. Blender carries its own libembree and libtbb; a library linked
-// the usual way binds to those and crashes or silently finds no hits, so ours is opened privately (RTLD_LOCAL | RTLD_DEEPBIND).
+// Embree, reached only through this table of function pointers. Blender carries its own libembree and libtbb; a library
+// linked the usual way binds to those and crashes or silently finds no hits, so ours is opened privately (RTLD_LOCAL |
+// RTLD_DEEPBIND).
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -40,8 +41,8 @@ struct Embree {
     void check(const char *what) const;
 };
 
-/// The table and its device, opened at the first call and kept until the process ends (its worker threads may outlive any
-/// scene). Throws Error(GLIMMER_UNAVAILABLE) when Embree is missing or of another version than the headers.
+/// The table and its device, opened at the first call and kept until the process ends (its worker threads may outlive
+/// any scene). Throws Error(GLIMMER_UNAVAILABLE) when Embree is missing or of another version than the headers.
 const Embree &embree();
 
 } // namespace glimmer

@@ -22,13 +22,13 @@ class Mesh {
     ~Mesh();
 
     std::string name;
-    Vec3d center;                    ///< float64 centre of the bounds: `vertices` are relative to it
-    std::vector<Vec3f> vertices;     ///< one more than there are: Embree reads 16 bytes at the last
-    std::vector<Vec3f> normals;      ///< empty: flat
-    std::vector<Vec2f> uvs;          ///< empty: none
+    Vec3d center;                ///< float64 centre of the bounds: `vertices` are relative to it
+    std::vector<Vec3f> vertices; ///< one more than there are: Embree reads 16 bytes at the last
+    std::vector<Vec3f> normals;  ///< empty: flat
+    std::vector<Vec2f> uvs;      ///< empty: none
     std::vector<std::array<uint32_t, 3>> triangles;
-    std::vector<uint16_t> slots;     ///< empty: all 0
-    float radius = 0;                ///< largest |coordinate| of a vertex, about the centre
+    std::vector<uint16_t> slots; ///< empty: all 0
+    float radius = 0;            ///< largest |coordinate| of a vertex, about the centre
     uint16_t slot_count = 1;
 
     uint16_t slot(uint32_t triangle) const { return slots.empty() ? uint16_t(0) : slots[triangle]; }

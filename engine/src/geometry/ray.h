@@ -18,7 +18,7 @@ struct Ray {
 /// The closest surface on a ray: a triangle of an instance, or a sphere.
 struct Hit {
     float t = kInfinity;
-    uint32_t instance = kNone; ///< kNone: a sphere
+    uint32_t instance = kNone;  ///< kNone: a sphere
     uint32_t primitive = kNone; ///< triangle of the mesh, or sphere
     float u = 0, v = 0;         ///< barycentrics of vertices 1 and 2
 };

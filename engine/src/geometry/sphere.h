@@ -17,8 +17,9 @@ struct SphereRoots {
     double near, far;
 };
 
-/// Both parameters at which the line meets the sphere (Haines, Guenther, Akenine-Moeller: Precision Improvements for Ray/Sphere
-/// Intersection, Ray Tracing Gems ch. 7), in float64: the textbook b^2 - 4ac in float32 misses a fifth of the hits at d = 1e4 R.
+/// Both parameters at which the line meets the sphere (Haines, Guenther, Akenine-Moeller: Precision Improvements for
+/// Ray/Sphere Intersection, Ray Tracing Gems ch. 7), in float64: the textbook b^2 - 4ac in float32 misses a fifth of
+/// the hits at d = 1e4 R.
 inline std::optional<SphereRoots> intersect_sphere(const Sphere &sphere, const Vec3d &origin, const Vec3d &direction) {
     const Vec3d f = origin - sphere.center;
     const double a = dot(direction, direction);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every estimator of the picture offers: one camera sample at a time, from random numbers that depend on nothing but the pixel,
-// the sample and the seed.
+// What every estimator of the picture offers: one camera sample at a time, from random numbers that depend on nothing
+// but the pixel, the sample and the seed.
 #pragma once
 
 #include "film/sample.h"

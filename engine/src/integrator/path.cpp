@@ -15,9 +15,9 @@ namespace glimmer {
 
 namespace {
 
-constexpr uint32_t kAllLights = 16;  // up to here every light is sampled at what the camera sees
-constexpr uint32_t kManyLights = 4;  // beyond, so many choices
-constexpr size_t kBranches = 24;     // unfinished branches of one camera sample; beyond, segments are no longer split
+constexpr uint32_t kAllLights = 16; // up to here every light is sampled at what the camera sees
+constexpr uint32_t kManyLights = 4; // beyond, so many choices
+constexpr size_t kBranches = 24;    // unfinished branches of one camera sample; beyond, segments are no longer split
 constexpr uint64_t kVertexGuard = 1u << 22; // of one camera sample; reached only where light is shut in without end
 
 // Stratified sample sets of the camera's own segment; everything later draws independent numbers.
@@ -67,30 +67,27 @@ class PathSample {
 
         if (fog && fog->scatters() && state.scatter < limits_.scatter) {
             const bool split = options_.split && state.direct_view() && count_ + 2 < kBranches;
-            if (options_.line_lights)
+            if (lights_along(state))
                 sample_lights_along(state, end, *fog, split);
-            if (split) {
+            if (split)
                 split_into_fog(state, end, *fog);
-            } else {
-                if (fly_into_fog(state, end, *fog))
-                    return;
-                if (surface)
-                    scatter_at_surface(state, *surface);
+            else if (fly_into_fog(state, end, *fog))
                 return;
-            }
-        }
-        if (surface) {
-            if (fog) {
+            if (split && surface)
                 state.beta *= fog->transmittance(end);
-                // An absorber in front of everything dims the picture, not the importance of what is behind it.
-                const Rgb absorbed = Rgb(std::exp(-optical_depth(fog->sigma_a.r, end)),
-                                         std::exp(-optical_depth(fog->sigma_a.g, end)),
-                                         std::exp(-optical_depth(fog->sigma_a.b, end)));
-                if (state.direct_view())
-                    state.exempt *= max_component(absorbed);
-            }
-            scatter_at_surface(state, *surface);
+        } else if (fog && surface) {
+            state.beta *= fog->transmittance(end);
         }
+        if (!surface)
+            return;
+        if (fog && state.direct_view()) // an absorber in front of everything dims the picture, not what is behind it
+            state.exempt *= least_absorbed(*fog, end);
+        scatter_at_surface(state, *surface);
+    }
+
+    /// The largest transmittance of a channel as far as absorption goes.
+    static float least_absorbed(const Homogeneous &fog, float t) {
+        return std::exp(-optical_depth(std::min(fog.sigma_a.r, std::min(fog.sigma_a.g, fog.sigma_a.b)), t));
     }
 
     // -- Light met by chance -------------------------------------------------------------------------------------
@@ -149,7 +146,8 @@ class PathSample {
     }
 
     /// The weight of a light met by chance against having been sampled from the vertex before.
-    float direction_weight(const PathState &state, uint32_t light, uint32_t triangle, float distance, float cosine) const {
+    float direction_weight(const PathState &state, uint32_t light, uint32_t triangle, float distance,
+                           float cosine) const {
         const DirectionOrigin &o = state.origin;
         if (o.kind == DirectionOrigin::Kind::specular || light == kNone)
             return 1;
@@ -159,15 +157,20 @@ class PathSample {
             return balance(o.pdf, expected_samples(o.all_lights, light, o.position) * at_light);
         if (scene_.lights.bound(light).infinite)
             return 1;
-        if (!options_.line_lights)
+        if (!o.along)
             return balance(o.pdf, expected_samples(false, light, o.position) * at_light);
         const LineSampler line = line_sampler(light, o.segment_origin, o.segment_direction, o.segment_end);
-        const float samples = expected_samples(o.all_lights, light, o.segment_origin, o.segment_direction, o.segment_end);
+        const float samples =
+            expected_samples(o.all_lights, light, o.segment_origin, o.segment_direction, o.segment_end);
         return balance(o.distance_pdf * o.pdf, samples * line.pdf(o.distance) * at_light);
     }
 
     // -- Choice of lights: the expected number of samples that a light gets takes the place of its probability -------
 
+    /// Whether light is sampled along this segment, or at the collision that ends it.
+    bool lights_along(const PathState &state) const {
+        return state.direct_view() ? options_.line_lights : options_.deep_line_lights;
+    }
     bool every_light(bool all) const { return all && options_.all_lights && scene_.lights.size() <= kAllLights; }
     uint32_t choices(bool all) const {
         return every_light(all) ? scene_.lights.size() : all && options_.all_lights ? kManyLights : 1;
@@ -201,10 +204,10 @@ class PathSample {
     // -- Fog -----------------------------------------------------------------------------------------------------
 
     /// The light that the fog scatters once into the segment.
-    void sample_lights_along(const PathState &state, float end, const Homogeneous &fog, bool all) {
+    void sample_lights_along(const PathState &state, float end, const Homogeneous &fog, bool split) {
         if (scene_.lights.size() == 0)
             return;
-        const bool camera = state.depth == 0;
+        const bool camera = state.depth == 0, all = state.direct_view();
         const HenyeyGreenstein phase{fog.g};
         const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
         for (uint32_t i = 0; i < choices(all); ++i) {
@@ -228,7 +231,7 @@ class PathSample {
             float weight = 1;
             if (!light->delta) {
                 const float p_distance =
-                    all ? collision_pdf(fog, state.beta, end, at.t) : free_flight_pdf(fog, state.beta, at.t);
+                    split ? collision_pdf(fog, state.beta, end, at.t) : free_flight_pdf(fog, state.beta, at.t);
                 weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
             }
             const Rgb value = state.beta * unshadowed * weight;
@@ -239,11 +242,11 @@ class PathSample {
     /// One path that goes on from within the segment, given that it scatters there.
     void split_into_fog(const PathState &state, float end, const Homogeneous &fog) {
         const bool camera = state.depth == 0;
-        const Collision c = camera ? sample_collision(fog, state.beta, end, sampler_.next_1d(),
-                                                      sampler_.stratified_bits(kSetCollision))
-                                   : sample_collision(fog, state.beta, end, sampler_);
+        const Collision c =
+            camera ? sample_collision(fog, state.beta, end, sampler_.next_1d(), sampler_.stratified_bits(kSetCollision))
+                   : sample_collision(fog, state.beta, end, sampler_);
         if (c.pdf > 0)
-            scatter_in_fog(state, end, fog, c.t, c.weight, c.pdf, true);
+            scatter_in_fog(state, end, fog, c.t, c.weight, c.pdf);
     }
 
     /// True when the path scattered before the surface; else its throughput is that of a path that passed.
@@ -254,16 +257,16 @@ class PathSample {
             return false;
         }
         if (flight.pdf > 0)
-            scatter_in_fog(state, end, fog, flight.t, flight.weight, flight.pdf, false);
+            scatter_in_fog(state, end, fog, flight.t, flight.weight, flight.pdf);
         return true;
     }
 
-    void scatter_in_fog(const PathState &state, float end, const Homogeneous &fog, float t, const Rgb &weight, float pdf,
-                        bool all) {
+    void scatter_in_fog(const PathState &state, float end, const Homogeneous &fog, float t, const Rgb &weight,
+                        float pdf) {
         PathState next = state;
         next.beta *= weight;
         const Vec3f x = state.ray.origin + state.ray.direction * t;
-        if (!options_.line_lights)
+        if (!lights_along(state))
             sample_light_in_fog(next, x, fog);
         if (!survives(next, x))
             return;
@@ -271,7 +274,16 @@ class PathSample {
         const PhaseSample s = HenyeyGreenstein{fog.g}.sample(
             state.ray.direction, camera ? sampler_.stratified_2d(kSetPhase) : sampler_.next_2d());
         next.ray = {x, s.direction};
-        next.origin = {DirectionOrigin::Kind::fog, all, s.pdf, x, state.ray.origin, state.ray.direction, end, t, pdf};
+        next.origin = {DirectionOrigin::Kind::fog,
+                       state.direct_view(),
+                       lights_along(state),
+                       s.pdf,
+                       x,
+                       state.ray.origin,
+                       state.ray.direction,
+                       end,
+                       t,
+                       pdf};
         ++next.depth;
         ++next.scatter;
         if (state.direct_view())
@@ -289,7 +301,8 @@ class PathSample {
         if (!light)
             return;
         const float p_phase = HenyeyGreenstein{fog.g}.eval(state.ray.direction, light->direction);
-        const Rgb unshadowed = fog.transmittance(light->distance) * light->radiance * (p_phase / light->pdf / choice.probability);
+        const Rgb unshadowed =
+            fog.transmittance(light->distance) * light->radiance * (p_phase / light->pdf / choice.probability);
         if (is_black(unshadowed) || occluded(x, *light))
             return;
         const float weight = light->delta ? 1 : balance(choice.probability * light->pdf, p_phase);
@@ -438,7 +451,8 @@ class PathSample {
         return scene_.accel->occluded({origin, light.direction, light.distance}, light.ignored_sphere);
     }
 
-    /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow without bound.
+    /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow
+    /// without bound.
     bool survives(PathState &state, const Vec3f &x) {
         const float weight = max_component(state.beta) / state.exempt * surroundings_importance(scene_, x);
         if (!(weight > 0))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unidirectional path tracing. Segments seen directly from the camera are split, never tossed a coin over: the light that the fog
-// scatters once along them is summed light by light, one path goes on from a point in the fog and one from the surface behind.
+// Unidirectional path tracing. Segments seen directly from the camera are split, never tossed a coin over: the light
+// that the fog scatters once along them is summed light by light, one path goes on from a point in the fog and one from
+// the surface behind.
 #pragma once
 
 #include "integrator/integrator.h"
@@ -12,12 +13,14 @@ struct PathOptions {
     bool split = true;         ///< direct segments of fog: both ends are followed; else one, by free flight
     bool all_lights = true;    ///< at what the camera sees directly every light is sampled; else one everywhere
     bool guided_choice = true; ///< one light is chosen by what it could bring; else all alike
-    bool line_lights = true;   ///< light is sampled along segments of fog; else at the collision that ends them
+    bool line_lights = true;   ///< light is sampled along direct segments of fog; else at the collision that ends them
+    bool deep_line_lights = true; ///< the same for all later segments
 };
 
 /// The student report's method, kept as a yardstick: one light, exponential free flights, balance heuristic.
-inline constexpr PathOptions kReportOptions{false, false, false, false};
+inline constexpr PathOptions kReportOptions{false, false, false, false, false};
 
-std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options);
+std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
+                                                       const PathOptions &options);
 
 } // namespace glimmer

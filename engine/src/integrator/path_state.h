@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A camera path on its way along one segment, and what light sampling could have done at the vertex where the segment began.
+// A camera path on its way along one segment, and what light sampling could have done at the vertex where the segment
+// began.
 #pragma once
 
 #include "geometry/ray.h"
@@ -17,6 +18,7 @@ struct DirectionOrigin {
     };
     Kind kind = Kind::specular;
     bool all_lights = false; ///< light sampling took every light there, not one
+    bool along = false;      ///< fog: light was sampled along the segment, not at `position`
     float pdf = 0;           ///< of the direction, per solid angle
     Vec3f position;
     // fog: the segment and the density of the collision's distance on it
@@ -26,12 +28,17 @@ struct DirectionOrigin {
 
 struct PathState {
     Ray ray;
-    Rgb beta{1};       ///< throughput
-    float exempt = 1;  ///< the part of beta that roulette must not see: absorption before the first scattering, 1/eta^2 of glass
+    Rgb beta{1}; ///< throughput
+    float exempt =
+        1; ///< the part of beta that roulette must not see: absorption before the first scattering, 1/eta^2 of glass
     DirectionOrigin origin;
     uint32_t depth = 0, scatter = 0; ///< vertices so far; in the fog
-    enum class First : uint8_t { none, surface, fog } first = First::none; ///< what scattered first, specular surfaces apart
-    uint32_t order = 0;                                                    ///< vertices since then
+    enum class First : uint8_t {
+        none,
+        surface,
+        fog
+    } first = First::none; ///< what scattered first, specular surfaces apart
+    uint32_t order = 0;    ///< vertices since then
     GlassStack glass;
 
     /// Seen from the camera with nothing but mirrors and glass between: both ends of such a segment are followed.

@@ -7,9 +7,9 @@
 
 namespace glimmer {
 
-/// A bound on what a path in endless fog can still bring, relative to one among the lights: 1 inside the bounds of the scene, beyond them
-/// falling with the chance of a random walk's return, (R/r)^2 e^(-kappa (r - R)). Used in Russian roulette alone, so it need not be right; without
-/// it a path in endless fog of albedo 1 has no end.
+/// A bound on what a path in endless fog can still bring, relative to one among the lights: 1 inside the bounds of the
+/// scene, beyond them falling with the chance of a random walk's return, (R/r)^2 e^(-kappa (r - R)). Used in Russian
+/// roulette alone, so it need not be right; without it a path in endless fog of albedo 1 has no end.
 float surroundings_importance(const Scene &scene, const Vec3f &x);
 
 /// The glass bodies around a point, outermost first, found by following one ray out of them.

@@ -128,7 +128,8 @@ std::optional<LightSample> sample_light(const Light &light, const Vec3f &x, Vec2
     return std::visit([&](const auto &l) { return sample(l, x, u); }, light);
 }
 
-float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint32_t triangle, float distance, float cosine) {
+float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint32_t triangle, float distance,
+                float cosine) {
     const Vec3d at(x);
     if (const auto *l = std::get_if<SphereLight>(&light))
         return pdf_sphere(l->sphere.center - at, l->sphere.radius);
@@ -136,7 +137,8 @@ float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint
         return pdf_sphere(l->sphere.center - at, l->sphere.radius);
     if (const auto *l = std::get_if<MeshLight>(&light)) {
         const MeshLight::Triangle &t = l->triangles[triangle];
-        const double area = 0.5 * length(cross(Vec3d(t.vertices[1] - t.vertices[0]), Vec3d(t.vertices[2] - t.vertices[0])));
+        const double area =
+            0.5 * length(cross(Vec3d(t.vertices[1] - t.vertices[0]), Vec3d(t.vertices[2] - t.vertices[0])));
         const double d = double(distance);
         return l->choice.pmf(triangle) * float(pdf_area_to_solid_angle(d * d, double(cosine), area));
     }
@@ -148,7 +150,8 @@ float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint
     if (const auto *l = std::get_if<EnvironmentLight>(&light)) {
         if (l->distribution.empty())
             return pdf_uniform_sphere();
-        const Vec3f local{dot(l->to_local[0], direction), dot(l->to_local[1], direction), dot(l->to_local[2], direction)};
+        const Vec3f local{dot(l->to_local[0], direction), dot(l->to_local[1], direction),
+                          dot(l->to_local[2], direction)};
         const float sine = std::hypot(local.x, local.y);
         return sine > 0 ? l->distribution.pdf(equirectangular(local)) / (2 * kPi * kPi * sine) : 0.0f;
     }
@@ -177,7 +180,8 @@ std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray) {
         if (!(t > 0 && t < double(ray.t_max)))
             return std::nullopt;
         const Vec3d on = direction * t - to_center;
-        const double x = dot(on, l->half_x) / length_squared(l->half_x), y = dot(on, l->half_y) / length_squared(l->half_y);
+        const double x = dot(on, l->half_x) / length_squared(l->half_x),
+                     y = dot(on, l->half_y) / length_squared(l->half_y);
         if (l->ellipse ? x * x + y * y > 1 : std::abs(x) > 1 || std::abs(y) > 1)
             return std::nullopt;
         return LampHit{float(t), l->radiance};
@@ -208,7 +212,8 @@ LightBound bound_light(const Light &light) {
     } else if (const auto *l = std::get_if<AreaLamp>(&light)) {
         const double x = length(l->half_x), y = length(l->half_y);
         const auto area = float(l->ellipse ? 3.14159265358979323846 * x * y : 4 * x * y);
-        b = {Vec3f(l->center), float(l->ellipse ? std::max(x, y) : std::hypot(x, y)), false, luminance(l->radiance) * area};
+        b = {Vec3f(l->center), float(l->ellipse ? std::max(x, y) : std::hypot(x, y)), false,
+             luminance(l->radiance) * area};
     } else if (const auto *l = std::get_if<SunLamp>(&light)) {
         b.infinite = true;
         b.strength = luminance(l->irradiance);

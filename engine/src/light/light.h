@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lights as plain values. Emissive surfaces (spheres, meshes) are met by rays like any surface; lamps are see-through, cast no shadow
-// and are met only where an integrator asks for them; the sun and the environment are met by rays that leave the scene.
+// Lights as plain values. Emissive surfaces (spheres, meshes) are met by rays like any surface; lamps are see-through,
+// cast no shadow and are met only where an integrator asks for them; the sun and the environment are met by rays that
+// leave the scene.
 #pragma once
 
 #include "geometry/ray.h"
@@ -20,10 +21,10 @@ namespace glimmer {
 /// A direction towards a light and what comes from there if nothing stands between (no transmittance).
 struct LightSample {
     Vec3f direction;
-    float distance; ///< a shadow ray runs so far; infinite for the sun and the environment
-    Rgb radiance;   ///< over the pdf's measure: for a delta light the intensity over distance^2
-    float pdf;      ///< per solid angle; 1 for a delta light
-    bool delta;     ///< cannot be met by chance
+    float distance;                  ///< a shadow ray runs so far; infinite for the sun and the environment
+    Rgb radiance;                    ///< over the pdf's measure: for a delta light the intensity over distance^2
+    float pdf;                       ///< per solid angle; 1 for a delta light
+    bool delta;                      ///< cannot be met by chance
     uint32_t ignored_sphere = kNone; ///< the light itself, for the shadow ray
 };
 
@@ -99,7 +100,7 @@ struct EnvironmentLight {
     Rgb color;
     std::vector<Rgb> pixels; ///< top row first; empty: constant
     uint32_t width = 0, height = 0;
-    Distribution2d distribution; ///< empty: constant
+    Distribution2d distribution;   ///< empty: constant
     std::array<Vec3f, 3> to_local; ///< rows
     Rgb mean;                      ///< over the sphere of directions
 
@@ -111,10 +112,11 @@ using Light = std::variant<SphereLight, MeshLight, PointLamp, BallLamp, AreaLamp
 /// Towards the light from x. Nothing where it cannot shine.
 std::optional<LightSample> sample_light(const Light &light, const Vec3f &x, Vec2f u);
 
-/// The density, per solid angle at x, with which sample_light gives `direction`, known to meet the light. For a mesh light `triangle`
-/// (of MeshLight::triangles) is the one met, `distance` away and seen under `cosine` from its normal. 0 for a delta light.
-float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint32_t triangle = kNone, float distance = 0,
-                float cosine = 0);
+/// The density, per solid angle at x, with which sample_light gives `direction`, known to meet the light. For a mesh
+/// light `triangle` (of MeshLight::triangles) is the one met, `distance` away and seen under `cosine` from its normal.
+/// 0 for a delta light.
+float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint32_t triangle = kNone,
+                float distance = 0, float cosine = 0);
 
 /// A see-through lamp on the ray, before its t_max. Nothing for other lights.
 std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray);
@@ -122,7 +124,8 @@ std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray);
 /// What comes from infinitely far along the direction.
 Rgb radiance_from_infinity(const Light &light, const Vec3f &direction);
 
-/// A sphere around the light and about what it shines with: intensity for a finite light, irradiance for the sun and the environment.
+/// A sphere around the light and about what it shines with: intensity for a finite light, irradiance for the sun and
+/// the environment.
 struct LightBound {
     Vec3f center;
     float radius = 0;

@@ -7,7 +7,8 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kGuided = 0.9f; // the rest is uniform: a bound can underflow, or miss a light's rim
+constexpr float kGuided = 0.9f;  // the rest is uniform: a bound can underflow, or miss a light's rim
+constexpr float kLeast = 1e-30f; // a sum of weights below it (all lights beyond many mean free paths) guides nothing
 
 /// Draws from `weights` mixed with the uniform distribution. n >= 1.
 template <class Weigh>
@@ -15,7 +16,8 @@ LightChoice choose_by(uint32_t n, float u, std::array<float, LightSet::kWeighedL
     float total = 0;
     for (uint32_t i = 0; i < n; ++i)
         total += weights[i] = weigh(i);
-    const float uniform = (total > 0 ? 1 - kGuided : 1.0f) / float(n), scale = total > 0 ? kGuided / total : 0.0f;
+    const bool guided = total > kLeast;
+    const float uniform = (guided ? 1 - kGuided : 1.0f) / float(n), scale = guided ? kGuided / total : 0.0f;
     float left = u;
     for (uint32_t i = 0;; ++i) {
         const float p = uniform + scale * weights[i];
@@ -34,7 +36,7 @@ float probability_by(uint32_t n, uint32_t light, const Weigh &weigh) {
         if (i == light)
             own = w;
     }
-    return total > 0 ? (1 - kGuided) / float(n) + kGuided / total * own : 1.0f / float(n);
+    return total > kLeast ? (1 - kGuided) / float(n) + kGuided / total * own : 1.0f / float(n);
 }
 
 } // namespace
@@ -114,11 +116,11 @@ LightChoice LightSet::choose(const Vec3f &origin, const Vec3f &direction, float 
         return {s.index, s.pmf};
     }
     Weights weights;
-    return choose_by(size(), u, weights,
-                     [&](uint32_t i) { return weigh_segment(i, origin, direction, t_max, sigma); });
+    return choose_by(size(), u, weights, [&](uint32_t i) { return weigh_segment(i, origin, direction, t_max, sigma); });
 }
 
-float LightSet::probability(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max, float sigma) const {
+float LightSet::probability(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max,
+                            float sigma) const {
     if (!by_strength_.empty())
         return by_strength_.pmf(light);
     return probability_by(size(), light, [&](uint32_t i) { return weigh_segment(i, origin, direction, t_max, sigma); });

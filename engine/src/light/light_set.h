@@ -33,8 +33,8 @@ class LightSet {
     uint32_t of_sphere(uint32_t sphere) const { return sphere < of_sphere_.size() ? of_sphere_[sphere] : kNone; }
     uint32_t of_meshes() const { return mesh_light_; }
 
-    /// One light for a point: with probability 0.9 by strength / distance^2 * e^(-sigma distance), else any; so that no light has
-    /// probability 0, however small its bound. sigma: the smallest extinction of the channels.
+    /// One light for a point: with probability 0.9 by strength / distance^2 * e^(-sigma distance), else any; so that no
+    /// light has probability 0, however small its bound. sigma: the smallest extinction of the channels.
     LightChoice choose(const Vec3f &x, float sigma, float u) const;
     float probability(uint32_t light, const Vec3f &x, float sigma) const;
     /// One light for a segment of fog, by the angle that the segment spans as seen from the light.

@@ -56,12 +56,14 @@ LineSampler::LineSampler(const Homogeneous &medium, const Vec3f &origin, const V
         const double d = std::sqrt(std::max(d2, r * r));
         // 2 (1 - cos) of the cone about a sphere, without its cancellation; 1/d^2 for a point.
         const double sin2 = r * r / std::max(d2, r * r);
-        const double solid = r > 0 ? 2 * sin2 / (1 + std::sqrt(1 - std::min(sin2, 1.0))) / (r * r) : 1 / std::max(d2, h_ * h_);
+        const double solid =
+            r > 0 ? 2 * sin2 / (1 + std::sqrt(1 - std::min(sin2, 1.0))) / (r * r) : 1 / std::max(d2, h_ * h_);
         const float way = float(std::max(t[i], 0.0) + d - r);
         // Relative to the shortest way, so that the density does not underflow where the picture is all but black.
         const float beyond = std::max(way - float(distance - r), 0.0f);
         const Rgb transmittance = medium.transmittance(beyond);
-        float source = float(solid) * (medium.grey ? transmittance.r : (transmittance.r + transmittance.g + transmittance.b) / 3);
+        float source =
+            float(solid) * (medium.grey ? transmittance.r : (transmittance.r + transmittance.g + transmittance.b) / 3);
         if (!isotropic)
             source *= HenyeyGreenstein{medium.g}.eval(float(-s / std::sqrt(std::max(d2, 1e-30))));
         last_source = source;

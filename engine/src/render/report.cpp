@@ -66,15 +66,15 @@ std::string Session::report_json() {
                 ", \"sample\": " + std::to_string(invalid_[0].sample) + "}";
     std::string error = "null";
     if (std::isfinite(error_.relmse))
-        error = "{\"relmse\": " + number(error_.relmse) + ", \"low\": " + number(error_.low) + ", \"high\": " +
-                number(error_.high) + ", \"confidence\": " + number(kErrorConfidence) + "}";
+        error = "{\"relmse\": " + number(error_.relmse) + ", \"low\": " + number(error_.low) +
+                ", \"high\": " + number(error_.high) + ", \"confidence\": " + number(kErrorConfidence) + "}";
     std::string out = "{\"engine\": " + quoted(GLIMMER_VERSION);
     out += ", \"integrator\": " + quoted(kIntegrators[settings_.integrator].name);
     out += ", \"spp\": " + std::to_string(p.samples);
     out += ", \"seed\": " + std::to_string(settings_.seed);
     out += ", \"threads\": " + std::to_string(settings_.threads);
-    out += ", \"seconds\": {\"load\": 0, \"build\": " + number(scene_->build_seconds) + ", \"render\": " + number(p.seconds) +
-           ", \"cpu\": " + number(p.cpu_seconds) + "}";
+    out += ", \"seconds\": {\"load\": 0, \"build\": " + number(scene_->build_seconds) +
+           ", \"render\": " + number(p.seconds) + ", \"cpu\": " + number(p.cpu_seconds) + "}";
     out += ", \"rays\": " + std::to_string(p.rays);
     out += ", \"peak_bytes\": " + std::to_string(p.peak_bytes);
     out += ", \"invalid_samples\": {\"count\": " + std::to_string(invalid_count_) + ", \"first\": " + first + "}";
@@ -91,7 +91,7 @@ std::vector<uint8_t> Session::save() {
     std::unique_lock lock(mutex_);
     if (state_ == GLIMMER_RUNNING || busy_ || between_batches_)
         fail_state("a running render cannot be saved; pause it first");
-    const uint64_t head[6] = {kStateMagic, settings_.seed,  settings_.integrator,
+    const uint64_t head[6] = {kStateMagic, settings_.seed, settings_.integrator,
                               rays_,       invalid_count_, uint64_t(curve_.size())};
     const double times[2] = {elapsed(), earlier_cpu_seconds_ + double(cpu_nanoseconds_) * 1e-9};
     std::vector<uint8_t> out;

@@ -49,8 +49,10 @@ float filter_offset(const FilmSettings &film, float u) {
 } // namespace
 
 Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings &settings)
-    : scene_(std::move(scene)), settings_(settings), integrator_(make_integrator(settings.integrator, *scene_, settings.limits)),
-      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes), error_{kNaN, kNaN, kNaN},
+    : scene_(std::move(scene)), settings_(settings),
+      integrator_(make_integrator(settings.integrator, *scene_, settings.limits)),
+      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes), error_{kNaN, kNaN,
+                                                                                                            kNaN},
       dirty_(film_.tiles().size(), false) {
     if (!settings_.samples && settings_.seconds <= 0 && settings_.target_error <= 0)
         settings_.samples = kDefaultSamples;
@@ -128,8 +130,8 @@ double Session::elapsed() const {
     return earlier_seconds_ + (state_ == GLIMMER_RUNNING ? now() - running_since_ : 0);
 }
 
-/// The next batch: as many passes as there were so far, so that the picture can be judged at every doubling; fewer where a tile would
-/// take too long.
+/// The next batch: as many passes as there were so far, so that the picture can be judged at every doubling; fewer
+/// where a tile would take too long.
 void Session::plan_batch() {
     samples_ = film_.min_samples();
     if (settings_.samples && samples_ >= settings_.samples)
@@ -254,7 +256,8 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
                 const Vec2f u = sampler.stratified_2d(kSetPixel);
                 const Vec2f film{(float(px) + 0.5f + filter_offset(settings, u.x)) / float(settings.width),
                                  (float(py) + 0.5f + filter_offset(settings, u.y)) / float(settings.height)};
-                const Vec2f lens = scene_->camera.lens_radius > 0 ? sample_uniform_disk(sampler.stratified_2d(kSetLens)) : Vec2f{};
+                const Vec2f lens =
+                    scene_->camera.lens_radius > 0 ? sample_uniform_disk(sampler.stratified_2d(kSetLens)) : Vec2f{};
                 const FilmSample value = integrator_->sample(scene_->camera.generate(film, lens), sampler, rays);
                 if (is_finite(value.radiance()))
                     tile.add(x, y, s, value);

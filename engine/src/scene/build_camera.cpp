@@ -9,8 +9,8 @@ namespace glimmer {
 
 namespace {
 
-/// Inverse CDF of the Blackman-Harris window over [-0.5, 0.5] at equal steps of the CDF, for filter importance sampling (Ernst,
-/// Stamminger, Greiner 2006): every sample then counts the same and none leaves its pixel.
+/// Inverse CDF of the Blackman-Harris window over [-0.5, 0.5] at equal steps of the CDF, for filter importance sampling
+/// (Ernst, Stamminger, Greiner 2006): every sample then counts the same and none leaves its pixel.
 std::vector<float> invert_blackman_harris() {
     constexpr int kFine = 4096, kSteps = 256;
     const auto window = [](double x) { // x in [0, 1]

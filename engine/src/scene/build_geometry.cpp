@@ -66,7 +66,8 @@ void SceneBuilder::build_geometry() {
             instance.translation = Vec3f(a * mesh->center - origin_);
             // Normalised, so that neither tiny nor huge scales under- or overflow in float32.
             Linear cofactor = a.linear.cofactor();
-            const double scale = std::max({max_abs(cofactor.rows[0]), max_abs(cofactor.rows[1]), max_abs(cofactor.rows[2])});
+            const double scale =
+                std::max({max_abs(cofactor.rows[0]), max_abs(cofactor.rows[1]), max_abs(cofactor.rows[2])});
             if (!(std::abs(a.linear.determinant()) > 0) || !std::isfinite(scale)) {
                 ++flat; // no volume to enter and no inverse for the ray: as good as not there
                 continue;
@@ -79,7 +80,8 @@ void SceneBuilder::build_geometry() {
             for (size_t r = 0; r < 3; ++r)
                 instance.normal_matrix[r] = Vec3f(cofactor.rows[r]);
             instance.object = index;
-            instance.object_index = object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
+            instance.object_index =
+                object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
             instances.push_back(instance);
         }
         scene_.meshes_.push_back(std::move(mesh));
@@ -140,7 +142,8 @@ Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
         }
     }
     const float local = std::max(max_abs(a), std::max(max_abs(b), max_abs(c)));
-    const float stretch = std::max(max_abs(instance.linear[0]), std::max(max_abs(instance.linear[1]), max_abs(instance.linear[2])));
+    const float stretch =
+        std::max(max_abs(instance.linear[0]), std::max(max_abs(instance.linear[1]), max_abs(instance.linear[2])));
     at.error = kRoundingUnits * (max_abs(at.position) + stretch * local + max_abs(instance.translation));
     at.material = object_materials[instance.object][mesh.slot(hit.primitive)];
     at.object_index = instance.object_index;

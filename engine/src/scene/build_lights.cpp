@@ -106,7 +106,8 @@ void SceneBuilder::add_lamps(std::vector<Light> &lights) {
         case GLIMMER_POINT:
         case GLIMMER_SPOT:
             if (l.radius > 0)
-                lights.push_back(BallLamp{{position, l.radius}, color * float(1 / (kPiDouble * l.radius * l.radius)), cone_of(l)});
+                lights.push_back(
+                    BallLamp{{position, l.radius}, color * float(1 / (kPiDouble * l.radius * l.radius)), cone_of(l)});
             else
                 lights.push_back(PointLamp{Vec3f(position), color, cone_of(l)});
             break;
@@ -122,8 +123,8 @@ void SceneBuilder::add_lamps(std::vector<Light> &lights) {
         case GLIMMER_AREA: {
             const Affine to_world = affine_from_rows(l.to_world);
             lights.push_back(AreaLamp{to_world.translation - origin_, to_world.linear.column(0) * (l.size[0] * 0.5),
-                                      to_world.linear.column(1) * (l.size[1] * 0.5), -normalize(to_world.linear.column(2)),
-                                      l.ellipse != 0, color});
+                                      to_world.linear.column(1) * (l.size[1] * 0.5),
+                                      -normalize(to_world.linear.column(2)), l.ellipse != 0, color});
             break;
         }
         }

@@ -12,7 +12,7 @@ Rgb to_rgb(const float (&c)[3]) {
 }
 
 Masking to_masking(glimmer_masking masking) {
-    return masking == GLIMMER_SMITH ? Masking::Smith
+    return masking == GLIMMER_SMITH             ? Masking::Smith
            : masking == GLIMMER_SMITH_SEPARABLE ? Masking::SmithSeparable
                                                 : Masking::SchlickGgx;
 }

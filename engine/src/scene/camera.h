@@ -8,8 +8,8 @@
 namespace glimmer {
 
 struct CameraRay {
-    Ray ray;           ///< t_max: the far clipping plane along this ray
-    float inv_cosine;  ///< 1 / cosine of the angle to the axis
+    Ray ray;          ///< t_max: the far clipping plane along this ray
+    float inv_cosine; ///< 1 / cosine of the angle to the axis
 };
 
 struct Camera {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geometry/mesh.h"
+#include "glimmer.h"
 #include "math/affine.h"
 
 #include <array>
@@ -10,8 +11,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "glimmer.h"
 
 namespace glimmer {
 

@@ -19,9 +19,9 @@ enum class MaterialKind : uint8_t {
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::reflective;
-    bool schlick = false; ///< glass: Schlick in place of the exact Fresnel equations
-    float ior = 1;        ///< glass
-    Rgb emission;         ///< radiance on both sides
+    bool schlick = false;                    ///< glass: Schlick in place of the exact Fresnel equations
+    float ior = 1;                           ///< glass
+    Rgb emission;                            ///< radiance on both sides
     uint32_t lobe_begin = 0, lobe_count = 0; ///< in Scene::lobes
 };
 

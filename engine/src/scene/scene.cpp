@@ -8,7 +8,8 @@
 
 namespace glimmer {
 
-SceneBuilder::SceneBuilder(const SceneDescription &description, Scene &scene) : description_(description), scene_(scene) {}
+SceneBuilder::SceneBuilder(const SceneDescription &description, Scene &scene)
+    : description_(description), scene_(scene) {}
 
 void SceneBuilder::build_medium() {
     if (!description_.medium)
@@ -24,8 +25,10 @@ void SceneBuilder::build_medium() {
 void SceneBuilder::build_bounds() {
     Vec3d low(HUGE_VAL, HUGE_VAL, HUGE_VAL), high = -low;
     const auto add = [&](const Vec3d &center, double radius) {
-        low = {std::min(low.x, center.x - radius), std::min(low.y, center.y - radius), std::min(low.z, center.z - radius)};
-        high = {std::max(high.x, center.x + radius), std::max(high.y, center.y + radius), std::max(high.z, center.z + radius)};
+        low = {std::min(low.x, center.x - radius), std::min(low.y, center.y - radius),
+               std::min(low.z, center.z - radius)};
+        high = {std::max(high.x, center.x + radius), std::max(high.y, center.y + radius),
+                std::max(high.z, center.z + radius)};
     };
     for (const Instance &i : scene_.accel->instances()) {
         const double stretch = double(std::max({length(i.linear[0]), length(i.linear[1]), length(i.linear[2])}));
@@ -44,7 +47,9 @@ void SceneBuilder::build_bounds() {
 
 void SceneBuilder::list_left_out() {
     std::vector<std::string> &out = scene_.left_out;
-    const auto count = [](size_t n, const std::string &what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); };
+    const auto count = [](size_t n, const std::string &what) {
+        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
     if (!scene_.medium)
         out.push_back("no fog: no distance sampling, no transmittance");
     else if (!scene_.medium->scatters())
@@ -84,8 +89,9 @@ Scene::Scene(const SceneDescription &description) {
     builder.build_bounds();
     builder.list_left_out();
     if (medium && !lights.infinite().empty() && medium->sigma_t.r > 0 && medium->sigma_t.g > 0 && medium->sigma_t.b > 0)
-        warnings.push_back("the fog has no end, so the environment and suns behind it are exactly black; light the scene with "
-                           "lights of a place and size, or leave out the fog");
+        warnings.push_back(
+            "the fog has no end, so the environment and suns behind it are exactly black; light the scene with "
+            "lights of a place and size, or leave out the fog");
     if (lights.size() == 0)
         warnings.push_back("nothing in the scene shines: the picture will be black");
     build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

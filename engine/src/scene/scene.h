@@ -25,10 +25,10 @@ struct Interaction {
     float error;            ///< bound on the rounding error of the position, in lengths
     uint32_t material;      ///< of Scene::materials
     uint32_t object_index;
-    uint32_t body;          ///< the instance, or instances + sphere: which closed surface this is
+    uint32_t body; ///< the instance, or instances + sphere: which closed surface this is
 
-    /// Where a ray that leaves to `direction` starts: off the surface, on its side, by the rounding error of the hit (Waechter and
-    /// Binder, Ray Tracing Gems ch. 6, with the bound taken from the coordinates rather than a constant).
+    /// Where a ray that leaves to `direction` starts: off the surface, on its side, by the rounding error of the hit
+    /// (Waechter and Binder, Ray Tracing Gems ch. 6, with the bound taken from the coordinates rather than a constant).
     Vec3f origin_towards(const Vec3f &direction) const {
         return position + geometric_normal * std::copysign(error, dot(direction, geometric_normal));
     }
@@ -49,9 +49,7 @@ class Scene {
     Scene &operator=(const Scene &) = delete;
 
     Interaction interaction(const Ray &ray, const Hit &hit) const;
-    Bsdf bsdf(const Material &material) const {
-        return Bsdf(lobes.data() + material.lobe_begin, material.lobe_count);
-    }
+    Bsdf bsdf(const Material &material) const { return Bsdf(lobes.data() + material.lobe_begin, material.lobe_count); }
     size_t bytes() const;
 
     Camera camera;
