@@ -8,6 +8,9 @@
 using namespace glimmer;
 using namespace glimmer::probe;
 
+PROBE uint64_t probe_mix64(uint64_t x) {
+    return mix64(x);
+}
 PROBE uint64_t probe_hash64(uint64_t a, uint64_t b) {
     return hash64(a, b);
 }

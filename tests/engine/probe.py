@@ -81,6 +81,10 @@ def random_bits(seed: int, n: int) -> Array:
 # ---- sampling ----
 
 
+def mix64(x: int) -> int:
+    return int(_call("probe_mix64", np.uint64(x), returns=ctypes.c_uint64))
+
+
 def hash64(a: int, b: int) -> int:
     return int(_call("probe_hash64", np.uint64(a), np.uint64(b), returns=ctypes.c_uint64))
 

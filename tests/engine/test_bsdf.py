@@ -157,6 +157,21 @@ def test_weights_estimate_the_albedo(name: str, mu: float) -> None:
         family.mean(s.weight[:, 0], float(f_cos.sum()), f"albedo of {name} at {mu}", 8 * ROUNDING + 8 * blur**2)
 
 
+@pytest.mark.parametrize("mu", [0.9, 0.5, 0.1])
+@pytest.mark.parametrize("alpha", [0.2, 0.6, 1.0])
+def test_the_bound_touches_the_horizon(alpha: float, mu: float) -> None:
+    """The lowest normals still sampled reflect below the horizon, or in the best azimuth along it: no cap is wasted."""
+    azimuths = (np.arange(1 << 14) * 2.0**-14).astype(np.float32)
+
+    def highest(from_the_end: float) -> float:
+        u = np.stack([azimuths, np.full(len(azimuths), 1 - from_the_end, np.float32)], axis=1)
+        s = probe.bsdf_sample([metal(alpha)], direction(mu), azimuths, u)
+        return float(s.wi[:, 2].max())  # 0 where nothing was found
+
+    assert highest(2.0**-24) <= 1e-3
+    assert highest(2.0**-7) > 0
+
+
 # DESIGN 3.1, F = 1, height-correlated Smith.
 ALBEDOS = [
     (0.01, 0.1, 0.9941),

@@ -238,6 +238,26 @@ def test_flat_shapes(name: str, position: str) -> None:
     assert not probe.shape_pdf(kind, shape, -drawn.wi).any()
 
 
+@pytest.mark.parametrize("position", POSITIONS)
+@pytest.mark.parametrize("name", SHAPES)
+def test_flat_shapes_end_at_their_edges(name: str, position: str) -> None:
+    """A hundredth within the outline the density is positive, a hundredth outside it is 0."""
+    kind = SHAPES[name]
+    shape, centre, half_x, half_y, _ = placed(kind, position)
+    t = (np.arange(50) + 0.5) / 50
+    if kind == probe.ELLIPSE:
+        a, b = np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)
+    elif kind == probe.RECTANGLE:
+        a, b = np.r_[2 * t - 1, 2 * t - 1, t * 0 + 1, t * 0 - 1], np.r_[t * 0 + 1, t * 0 - 1, 2 * t - 1, 2 * t - 1]
+    else:
+        a, b = np.r_[2 * t - 1, t, -t], np.r_[t * 0 - 1, 1 - 2 * t, 1 - 2 * t]
+    edge = a[:, None] * half_x + b[:, None] * half_y
+    for scale, inside in ((0.99, True), (1.01, False)):
+        points = centre + scale * edge
+        wi = points / np.linalg.norm(points, axis=1, keepdims=True)
+        assert ((probe.shape_pdf(kind, shape, wi) > 0) == inside).all()
+
+
 def solid_angle_of_triangle(a: Array, b: Array, c: Array) -> mpmath.mpf:
     """Van Oosterom and Strackee 1983, in 50 digits."""
     mpmath.mp.dps = 50

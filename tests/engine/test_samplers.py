@@ -54,6 +54,13 @@ def test_numbers_stay_below_one() -> None:
         assert (values * 2.0**24 == np.floor(values * 2.0**24)).all()
 
 
+def test_mix_is_that_of_splitmix64() -> None:
+    """The first numbers of SplitMix64 from seed 0, as its authors' program prints them."""
+    golden = 0x9E3779B97F4A7C15
+    published = [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F]
+    assert [probe.mix64((i + 1) * golden % 2**64) for i in range(3)] == published
+
+
 def test_hash_avalanches() -> None:
     """Flipping any input bit flips each output bit half of the time (z over the 64 flips counts, all inputs)."""
     rng = np.random.default_rng(5)
