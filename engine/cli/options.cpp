@@ -113,7 +113,7 @@ void expect_different_files(const RenderOptions &options) {
     std::set<std::filesystem::path> seen;
     for (const auto &path : {std::optional(options.scene), std::optional(options.output), options.checkpoint,
                              options.report, options.curve})
-        if (path && !seen.insert(std::filesystem::weakly_canonical(*path)).second)
+        if (path && !seen.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(*path))).second)
             throw InputError("glimmer: " + in_quotes(path->string()) +
                              " is named twice; scene and results are different files");
 }

@@ -1,28 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 
 namespace glimmer {
 
+namespace {
+
+/// Bytes of the printable UTF-8 character that a text starts with; 0 when it starts with none.
+size_t character_size(std::string_view text) {
+    const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+    if (byte(0) < 0x80)
+        return byte(0) >= 0x20 && byte(0) != 0x7f;
+    const size_t size = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : byte(0) >= 0xc2 ? 2 : 0;
+    if (size == 0 || byte(0) > 0xf4 || text.size() < size)
+        return 0;
+    for (size_t i = 1; i < size; ++i)
+        if ((byte(i) & 0xc0) != 0x80)
+            return 0;
+    return size;
+}
+
+} // namespace
+
 std::string in_quotes(std::string_view text) {
     constexpr size_t limit = 80;
     std::string result = "\"";
-    for (const char character : text.substr(0, limit)) {
-        const auto byte = static_cast<unsigned char>(character);
-        if (byte < 0x20 || byte == 0x7f) {
+    while (!text.empty()) {
+        if (result.size() > limit)
+            return result + "...\"";
+        const size_t size = character_size(text);
+        if (size == 0) {
             char escaped[8];
-            std::snprintf(escaped, sizeof escaped, "\\u%04x", byte);
+            std::snprintf(escaped, sizeof escaped, "\\x%02x", static_cast<unsigned char>(text[0]));
             result += escaped;
         } else {
-            if (character == '"' || character == '\\')
+            if (text[0] == '"' || text[0] == '\\')
                 result += '\\';
-            result += character;
+            result += text.substr(0, size);
         }
+        text.remove_prefix(std::max<size_t>(size, 1));
     }
-    return result + (text.size() > limit ? "...\"" : "\"");
+    return result + "\"";
 }
 
 std::string quoted_list(std::span<const std::string> names) {

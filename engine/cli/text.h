@@ -8,7 +8,8 @@
 
 namespace glimmer {
 
-/// In double quotes, control characters escaped, cut after 80 characters: any text as part of a one-line message.
+/// In double quotes, what is not printable UTF-8 escaped, cut after some 80 bytes: any text as part of a one-line
+/// message.
 std::string in_quotes(std::string_view text);
 
 /// "\"a\", \"b\"": each quoted; after eight names "and 12 more"; "none" when there are none.

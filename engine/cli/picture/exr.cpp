@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exr.h"
 
+#include "encode.h"
 #include "errors.h"
 #include "picture_file.h"
 #include "text.h"
@@ -29,7 +30,7 @@ std::vector<std::string> split(const std::string &text) {
 
 } // namespace
 
-void write_exr(const Picture &picture, const std::filesystem::path &path, const std::filesystem::path &target) {
+void write_exr(const Picture &picture, const std::filesystem::path &path) {
     OIIO::ImageSpec spec(static_cast<int>(picture.window_width()), static_cast<int>(picture.window_height()),
                          static_cast<int>(picture.channels.size()), OIIO::TypeFloat);
     spec.channelnames = picture.channels;
@@ -48,10 +49,7 @@ void write_exr(const Picture &picture, const std::filesystem::path &path, const 
     spec["glimmer:scene"] = info.scene_hash;
     spec["glimmer:integrator"] = info.integrator;
     spec["glimmer:biased_by"] = joined(info.biased_by);
-    const auto output = OIIO::ImageOutput::create("openexr");
-    if (!output || !output->open(path.string(), spec) || !output->write_image(OIIO::TypeFloat, picture.pixels.data()) ||
-        !output->close())
-        throw ResultError(target.string() + ": cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+    write_image(spec, OIIO::TypeFloat, picture.pixels.data(), "openexr", path);
 }
 
 Picture read_picture(const std::filesystem::path &path) {

@@ -8,7 +8,7 @@
 
 namespace glimmer {
 
-/// Throws ResultError that names `target`, whose temporary name `path` is.
-void write_exr(const Picture &picture, const std::filesystem::path &path, const std::filesystem::path &target);
+/// Throws ResultError.
+void write_exr(const Picture &picture, const std::filesystem::path &path);
 
 } // namespace glimmer

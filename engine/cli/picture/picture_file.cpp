@@ -2,11 +2,9 @@
 #include "picture_file.h"
 
 #include "atomic_file.h"
-#include "errors.h"
+#include "encode.h"
 #include "exr.h"
-#include "text.h"
 
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cmath>
 
@@ -23,25 +21,23 @@ std::vector<float> rgb_of(const Picture &picture) {
     return rgb;
 }
 
-void write_with_oiio(const Picture &picture, const std::filesystem::path &path, const std::filesystem::path &target,
-                     const char *format) {
-    const bool is_png = format == std::string_view("png");
-    OIIO::ImageSpec spec(static_cast<int>(picture.window_width()), static_cast<int>(picture.window_height()), 3,
-                         is_png ? OIIO::TypeUInt8 : OIIO::TypeFloat);
-    spec["oiio:ColorSpace"] = is_png ? "sRGB" : "linear";
-    auto rgb = rgb_of(picture);
-    const auto output = OIIO::ImageOutput::create(format);
-    bool written = output && output->open(path.string(), spec);
-    if (is_png) {
-        std::vector<uint8_t> bytes(rgb.size());
-        std::transform(rgb.begin(), rgb.end(), bytes.begin(), display_value);
-        written = written && output->write_image(OIIO::TypeUInt8, bytes.data());
-    } else { // RGBE has no sign
-        std::transform(rgb.begin(), rgb.end(), rgb.begin(), [](float value) { return std::max(value, 0.0f); });
-        written = written && output->write_image(OIIO::TypeFloat, rgb.data());
-    }
-    if (!written || !output->close())
-        throw ResultError(target.string() + ": cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+OIIO::ImageSpec rgb_spec(const Picture &picture, OIIO::TypeDesc type, const char *color_space) {
+    OIIO::ImageSpec spec(static_cast<int>(picture.window_width()), static_cast<int>(picture.window_height()), 3, type);
+    spec["oiio:ColorSpace"] = color_space;
+    return spec;
+}
+
+void write_png(const Picture &picture, const std::filesystem::path &path) {
+    const auto rgb = rgb_of(picture);
+    std::vector<uint8_t> bytes(rgb.size());
+    std::transform(rgb.begin(), rgb.end(), bytes.begin(), display_value);
+    write_image(rgb_spec(picture, OIIO::TypeUInt8, "sRGB"), OIIO::TypeUInt8, bytes.data(), "png", path);
+}
+
+void write_hdr(const Picture &picture, const std::filesystem::path &path) {
+    auto rgb = rgb_of(picture); // RGBE has no sign
+    std::transform(rgb.begin(), rgb.end(), rgb.begin(), [](float value) { return std::max(value, 0.0f); });
+    write_image(rgb_spec(picture, OIIO::TypeFloat, "linear"), OIIO::TypeFloat, rgb.data(), "hdr", path);
 }
 
 /// Portable float map: "PF", the size, -1 for little-endian, then rows from the bottom up.
@@ -74,14 +70,14 @@ uint8_t display_value(float linear) {
 
 void write_picture(const Picture &picture, const std::filesystem::path &path) {
     const std::string extension = lower_extension(path);
-    if (extension == ".pfm")
-        return write_pfm(picture, path);
-    AtomicFile file(path);
     if (extension == ".exr")
-        write_exr(picture, file.path(), path);
+        write_exr(picture, path);
+    else if (extension == ".png")
+        write_png(picture, path);
+    else if (extension == ".hdr")
+        write_hdr(picture, path);
     else
-        write_with_oiio(picture, file.path(), path, extension == ".png" ? "png" : "hdr");
-    file.commit();
+        write_pfm(picture, path);
 }
 
 } // namespace glimmer

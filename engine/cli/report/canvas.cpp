@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canvas.h"
 
-#include "errors.h"
+#include "picture/encode.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -53,13 +53,10 @@ void Canvas::text(double x, double y, const std::string &text, int size, Align a
                                     ink, align_x);
 }
 
-void Canvas::write(const std::filesystem::path &path, const std::filesystem::path &target) const {
-    const auto output = OIIO::ImageOutput::create("png");
+void Canvas::write(const std::filesystem::path &path) const {
     OIIO::ImageSpec spec(width_, height_, 3, OIIO::TypeUInt8);
     spec["oiio:ColorSpace"] = "sRGB";
-    if (!output || !output->open(path.string(), spec) || !output->write_image(OIIO::TypeFloat, pixels_.data()) ||
-        !output->close())
-        throw ResultError(target.string() + ": cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+    write_image(spec, OIIO::TypeFloat, pixels_.data(), "png", path);
 }
 
 std::string Canvas::font() {

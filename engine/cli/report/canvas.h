@@ -24,8 +24,8 @@ class Canvas {
     void column(int x, double y0, double y1, const Ink &ink);
     /// The text's middle height at y.
     void text(double x, double y, const std::string &text, int size, Align align, const Ink &ink);
-    /// 8-bit .png. Throws ResultError that names `target`.
-    void write(const std::filesystem::path &path, const std::filesystem::path &target) const;
+    /// 8-bit .png. Throws ResultError.
+    void write(const std::filesystem::path &path) const;
 
     /// The name of a font; "" when the system has none.
     static std::string font();

@@ -2,7 +2,6 @@
 #include "curve_plot.h"
 
 #include "canvas.h"
-#include "picture/atomic_file.h"
 #include "text.h"
 
 #include <algorithm>
@@ -162,9 +161,7 @@ void write_curve_plot(const std::vector<CurvePoint> &all, double confidence, con
                     Canvas::Align::Center, kSoft);
     else
         draw_curve(canvas, curve, confidence);
-    AtomicFile file(path);
-    canvas.write(file.path(), path);
-    file.commit();
+    canvas.write(path);
 }
 
 } // namespace glimmer

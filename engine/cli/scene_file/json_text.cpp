@@ -4,13 +4,16 @@
 #include "errors.h"
 #include "text.h"
 
+#include <algorithm>
 #include <unordered_set>
 #include <vector>
 
 namespace glimmer {
 
 std::string child_path(const std::string &path, std::string_view key) {
-    return path.empty() ? std::string(key) : path + "." + std::string(key);
+    const bool printable = std::none_of(key.begin(), key.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    const std::string name = printable ? std::string(key) : in_quotes(key); // a message is one line
+    return path.empty() ? name : path + "." + name;
 }
 std::string child_path(const std::string &path, size_t index) {
     return path + "[" + std::to_string(index) + "]";
@@ -58,13 +61,16 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
         std::unordered_set<std::string> keys;
     };
 
+    /// Where the next value goes: in a list that is open, behind its elements; in those around it, at their last one.
     std::string path() const {
         std::string result;
-        for (const Level &level : levels_)
+        for (const Level &level : levels_) {
+            const bool is_innermost = &level == &levels_.back();
             if (level.container->is_array())
-                result = child_path(result, level.container->size());
-            else if (&level != &levels_.back())
+                result = child_path(result, level.container->size() - (is_innermost ? 0 : 1));
+            else if (!is_innermost)
                 result = child_path(result, level.next_key);
+        }
         return result;
     }
 
@@ -117,8 +123,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
                 what = what.substr(at + std::string(mark).size());
         }
         for (char &character : what)
-            if (static_cast<unsigned char>(character) < 0x20)
-                character = ' ';
+            if (const auto byte = static_cast<unsigned char>(character); byte < 0x20 || byte >= 0x7f)
+                character = '?'; // it quotes what may be no text at all
         return what;
     }
 
