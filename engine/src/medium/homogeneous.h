@@ -107,7 +107,7 @@ inline Rgb collision_shares(const Homogeneous &m, const Rgb &beta, float t_max) 
     Rgb share;
     for (int c = 0; c < 3; ++c)
         if (m.sigma_s[c] > 0)
-            share[c] = beta[c] * (m.sigma_s[c] / m.sigma_t[c]) * -std::expm1(-m.sigma_t[c] * t_max);
+            share[c] = beta[c] * (m.sigma_s[c] / m.sigma_t[c]) * one_minus_exp(m.sigma_t[c] * t_max);
     return share;
 }
 
@@ -116,7 +116,7 @@ inline Rgb collision_densities(const Homogeneous &m, const Rgb &share, float t_m
     Rgb density;
     for (int c = 0; c < 3; ++c)
         if (share[c] > 0)
-            density[c] = m.sigma_t[c] / -std::expm1(-m.sigma_t[c] * t_max);
+            density[c] = m.sigma_t[c] / one_minus_exp(m.sigma_t[c] * t_max);
     return density;
 }
 
@@ -174,6 +174,15 @@ inline float free_flight_pdf(const Homogeneous &m, const Rgb &beta, float t) {
 /// beta_c weight_c is at most their sum.
 inline Collision sample_collision(const Homogeneous &m, const Rgb &beta, float t_max, float u_channel,
                                   uint64_t bits_t) {
+    if (m.grey) {
+        const float sigma = m.sigma_t.r, scattered = one_minus_exp(optical_depth(sigma, t_max));
+        if (!(m.sigma_s.r > 0) || !(scattered > 0) || is_black(beta))
+            return {0, Rgb(0), 0};
+        const float t = std::min(truncated_exponential(bits_t, sigma * t_max) / sigma, t_max);
+        if (!(t < kInfinity))
+            return {0, Rgb(0), 0};
+        return {t, Rgb(m.sigma_s.r / sigma * scattered), sigma * std::exp(-sigma * t) / scattered};
+    }
     const Rgb share = detail::collision_shares(m, beta, t_max);
     const float total = detail::sum(share);
     if (!(total > 0))
@@ -183,8 +192,6 @@ inline Collision sample_collision(const Homogeneous &m, const Rgb &beta, float t
     const float t = std::min(truncated_exponential(bits_t, sigma * t_max) / sigma, t_max);
     if (!(t < kInfinity))
         return {0, Rgb(0), 0};
-    if (m.grey)
-        return {t, Rgb(m.sigma_s.r / density.r), density.r * std::exp(-m.sigma_t.r * t)};
     const Rgb depth = detail::depths(m.sigma_t, t);
     const float offset = detail::least_depth(share, density, depth);
     const float p = detail::mixture(share / total, density, depth, offset);
@@ -198,6 +205,12 @@ inline Collision sample_collision(const Homogeneous &m, const Rgb &beta, float t
 
 /// Density per length of t in sample_collision.
 inline float collision_pdf(const Homogeneous &m, const Rgb &beta, float t_max, float t) {
+    if (m.grey) {
+        const float scattered = one_minus_exp(optical_depth(m.sigma_t.r, t_max));
+        if (!(m.sigma_s.r > 0) || !(scattered > 0) || is_black(beta) || !(t >= 0 && t <= t_max))
+            return 0;
+        return m.sigma_t.r * std::exp(-m.sigma_t.r * t) / scattered;
+    }
     const Rgb share = detail::collision_shares(m, beta, t_max);
     const float total = detail::sum(share);
     if (!(total > 0) || !(t >= 0 && t <= t_max))
