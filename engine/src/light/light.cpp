@@ -46,7 +46,7 @@ std::optional<LightSample> sample(const MeshLight &light, const Vec3f &x, Vec2f 
         return std::nullopt;
     const Vec3d normal = cross(b - a, c - a);
     const auto cosine = float(std::abs(dot(normal, Vec3d(s->wi))) / length(normal));
-    return LightSample{s->wi, std::max(s->distance - t.error / cosine, 0.0f), t.radiance, s->pdf * choice.pmf, false};
+    return LightSample{s->wi, s->distance, t.radiance, s->pdf * choice.pmf, false, kNone, t.error, cosine};
 }
 
 std::optional<LightSample> sample(const PointLamp &light, const Vec3f &x, Vec2f) {

@@ -26,6 +26,7 @@ struct LightSample {
     float pdf;                       ///< per solid angle; 1 for a delta light
     bool delta;                      ///< cannot be met by chance
     uint32_t ignored_sphere = kNone; ///< the light itself, for the shadow ray
+    float error = 0, facing = 1;     ///< of a shining triangle: of its positions, and |cos| there
 };
 
 /// What a ray finds of a see-through lamp.
