@@ -25,7 +25,7 @@ def _around_z(angle: float) -> Floats:
     return matrix
 
 
-# The centre of an equirectangular image lies along +y for the engine, and along -x... see IMAGE_TURN's test.
+# The centre of an equirectangular image lies along +y for the engine and along +x for Blender.
 IMAGE_TURN = _around_z(-pi / 2.0)
 
 
