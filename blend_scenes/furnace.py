@@ -23,7 +23,10 @@ def build() -> None:
     lambert = stage.surface("Lambert", "ShaderNodeBsdfDiffuse", Color=WHITE)
     mirror = stage.surface("Mirror", "ShaderNodeBsdfGlossy", Color=WHITE, Roughness=0.0)
     glass = stage.surface("Glass", "ShaderNodeBsdfGlass", Color=WHITE, Roughness=0.0, IOR=1.5)
-    stage.field(scene, lambert, mirror, rings=6, hill_height=1.0, hill_wavelength=10.0, bevel_width=0.15)
+    # Flat facets: shading normals that are not the surface's own lose light, in every renderer.
+    stage.field(
+        scene, lambert, mirror, rings=6, hill_height=1.0, hill_wavelength=10.0, bevel_width=0.15, bevel_smooth=False
+    )
     stage.sphere(scene, "Lambert Sphere", (-2.6, 0.0, 2.2), 1.0, lambert)
     stage.sphere(scene, "Mirror Sphere", (0.0, 0.0, 2.2), 1.0, mirror)
     stage.sphere(scene, "Glass Sphere", (2.6, 0.0, 2.2), 1.0, glass)

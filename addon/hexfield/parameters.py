@@ -113,6 +113,9 @@ class FieldParameters:
         soft_maximum=8,
         animatable=False,
     )
+    bevel_smooth: bool = _parameter(
+        True, "Smooth Bevels", "Shade the rounded edges as if they had no facets", _PLATES, _PLATE, animatable=False
+    )
 
     hill_height: float = _parameter(
         1.5,
@@ -198,7 +201,9 @@ class FieldParameters:
                 allowed = [choice[0] for choice in control.choices]
                 if value not in allowed:
                     raise ValueError(f"hexagon field: {name} is {value!r}; allowed: {', '.join(allowed)}")
-            elif not (control.minimum <= value <= control.maximum and math.isfinite(value)):
+            elif not isinstance(value, bool) and not (
+                control.minimum <= value <= control.maximum and math.isfinite(value)
+            ):
                 raise ValueError(
                     f"hexagon field: {name} is {value}; allowed: {control.minimum:g} to {control.maximum:g}"
                 )

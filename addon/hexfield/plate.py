@@ -77,7 +77,7 @@ def make_plate(parameters: FieldParameters, prototype: int) -> PlateMesh:
 
     bevel = [*_bands(rims), *_upright_edges(rims[0], foot, first_of_corner, segments)]
     flat = [*_flats(rims, foot, first_of_corner, segments, centre), foot[arcs][::-1]]
-    return _assemble(np.concatenate(vertices), flat, bevel)
+    return _assemble(np.concatenate(vertices), flat, bevel, parameters.bevel_smooth)
 
 
 def _corners(parameters: FieldParameters, prototype: int, apothem: float, depth: float) -> tuple[Floats, Floats]:
@@ -152,7 +152,7 @@ def _flats(
         yield np.concatenate([[centre], rims[-1][edge]])
 
 
-def _assemble(vertices: Floats, flat: list[Integers], bevel: list[Integers]) -> PlateMesh:
+def _assemble(vertices: Floats, flat: list[Integers], bevel: list[Integers], smooth: bool) -> PlateMesh:
     faces = flat + bevel
     is_bevel = np.arange(len(faces)) >= len(flat)
     return PlateMesh(
@@ -160,5 +160,5 @@ def _assemble(vertices: Floats, flat: list[Integers], bevel: list[Integers]) -> 
         face_vertices=np.concatenate(faces).astype(np.int32),
         face_sizes=np.array([len(face) for face in faces], dtype=np.int32),
         slots=np.where(is_bevel, BEVEL_SLOT, PLATE_SLOT).astype(np.int32),
-        smooth=is_bevel,
+        smooth=is_bevel & smooth,
     )

@@ -16,7 +16,8 @@ def read(group: Any) -> FieldParameters:
     values = {}
     for name, control in controls():
         value = getattr(group, name)
-        values[name] = value if control.choices else min(max(value, control.minimum), control.maximum)
+        numeric = not control.choices and not isinstance(value, bool)
+        values[name] = value if not numeric else min(max(value, control.minimum), control.maximum)
     return FieldParameters(**values)
 
 
@@ -44,6 +45,8 @@ def blender_property(name: str, control: Control, default: Any, update: Any = No
         common["update"] = update
     if control.choices:
         return bpy.props.EnumProperty(items=control.choices, **common)
+    if isinstance(default, bool):
+        return bpy.props.BoolProperty(**common)
     number = type(default)
     limits: dict[str, Any] = {"min": number(control.minimum)}
     if control.maximum < math.inf:

@@ -216,6 +216,8 @@ def test_keys_tell_what_has_to_be_made_anew() -> None:
         value = getattr(base, name)
         if control.choices:
             other: object = next(choice[0] for choice in control.choices if choice[0] != value)
+        elif isinstance(value, bool):
+            other = not value
         else:
             other = type(value)(value + 1) if value + 1 <= control.maximum else control.maximum / 2
         changed = FieldParameters(**{name: other})  # type: ignore[arg-type]
@@ -369,6 +371,7 @@ def test_slots_part_the_flat_from_the_rounded() -> None:
     assert sizes[plate & (np.abs(up) < 1e-12)].sum() == pytest.approx(6 * inner * (thickness - w), rel=1e-12)
     assert np.count_nonzero(plate) == 6 + 6 + 1
     assert np.array_equal(mesh.smooth, ~plate)
+    assert not make_plate(flat(bevel_smooth=False), 0).smooth.any()
     assert set(mesh.slots.tolist()) == {PLATE_SLOT, BEVEL_SLOT}
 
 

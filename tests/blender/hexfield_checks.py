@@ -144,6 +144,12 @@ def empty_field() -> None:
     assert assert_export_is_the_loop(obj) == 19
 
 
+def shapes(obj: Any) -> list[Any]:
+    """What a field's prototypes look like."""
+    meshes = [prototype.data for prototype in field.prototypes(plates_of(obj))]
+    return [([tuple(v.co) for v in mesh.vertices], [p.use_smooth for p in mesh.polygons]) for mesh in meshes]
+
+
 def every_parameter_is_live() -> None:
     """Changing a property changes what the field shows: points, plates or both, as the table says."""
     parameters = _load("hexfield.parameters")
@@ -152,17 +158,19 @@ def every_parameter_is_live() -> None:
         obj = new_field(mutation_shape=0.1, mutation_bevel=0.1, extent=extent_of.get(name, "RINGS"))
         group = obj.glimmer_field
         before = [matrices.copy() for _, matrices in export_instances(*evaluated(obj))]
-        plates = [np.array([v.co for v in p.data.vertices]) for p in field.prototypes(plates_of(obj))]
+        plates = shapes(obj)
         if control.choices:
             setattr(group, name, "RADIUS")
+        elif isinstance(getattr(group, name), bool):
+            setattr(group, name, not getattr(group, name))
         elif isinstance(getattr(group, name), int):
             setattr(group, name, getattr(group, name) + 1)
         else:
             setattr(group, name, 0.6 * getattr(group, name) + 0.1)
         after = [matrices for _, matrices in export_instances(*evaluated(obj))]
-        new_plates = [np.array([v.co for v in p.data.vertices]) for p in field.prototypes(plates_of(obj))]
+        new_plates = shapes(obj)
         same_layout = len(before) == len(after) and all(map(np.array_equal, before, after))
-        same_plates = len(plates) == len(new_plates) and all(map(np.array_equal, plates, new_plates))
+        same_plates = plates == new_plates
         # A clearing of 0.1 takes the plate in the middle.
         assert same_layout != bool(control.part & parameters.Part.LAYOUT), name
         assert same_plates != bool(control.part & parameters.Part.PLATES), name

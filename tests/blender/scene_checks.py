@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Describes the scenes of blend_scenes/ inside a Blender: as their scripts build them and as their files hold them.
 
-    blender -b --python scene_checks.py -- compare|open OUT.json     or     python scene_checks.py compare|open OUT.json
+    blender -b --python scene_checks.py -- WHAT OUT.json     or     python scene_checks.py WHAT OUT.json
 
-OUT.json: {scene: {"plates": ..., "instances": ...}}, to compare also with "built" and "file": descriptions, made of
-what the scene depends on by walking Blender's own lists of properties. test_scenes.py compares them.
+WHAT is "open" for {scene: {"plates": ..., "instances": ...}}; "compare" for the same with "built" and "file",
+descriptions made of what the scene depends on by walking Blender's own lists of properties; or "furnace" for the
+mean and the standard error of a picture. test_scenes.py judges.
 """
 
 import importlib
@@ -115,8 +116,30 @@ def plates() -> tuple[int, int]:
     return exported, sum(instance.is_instance for instance in depsgraph.object_instances)
 
 
+def furnace(picture: Path) -> dict[str, Any]:
+    """Mean and standard error over the pixels of the furnace, rendered by Glimmer."""
+    width, height = 96, 54
+    bpy.ops.wm.open_mainfile(filepath=str(SCENES / "furnace.blend"))
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y = width, height
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_depth = "32"
+    scene.render.filepath = str(picture)
+    # Pixels whose filters overlap would not be independent.
+    scene.glimmer.filter = "BOX"
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(str(picture))
+    pixels = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(pixels)
+    values = pixels.reshape(-1, 4)[:, :3].astype(np.float64).mean(axis=1)
+    return {"mean": values.mean(), "error": values.std(ddof=1) / np.sqrt(len(values))}
+
+
 def main(what: str, path: str) -> None:
     stage.addon()
+    if what == "furnace":
+        Path(path).write_text(json.dumps(furnace(Path(path).with_suffix(".exr"))))
+        return
     results: dict[str, dict[str, Any]] = {}
     for script in sorted(SCENES.glob("*.py")):
         if script.stem == "stage":
