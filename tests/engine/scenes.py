@@ -254,6 +254,15 @@ def read_pixels(path: Path, kind: str = "float") -> tuple[OpenImageIO.ImageSpec,
     return spec, np.asarray(pixels).reshape(spec.height, spec.width, spec.nchannels)
 
 
+def read_pfm(path: Path) -> Image:
+    """(height, width, 3), top row first, of a little-endian .pfm (whose rows stand from the bottom up)."""
+    header, data = path.read_bytes().split(b"\n-1.0\n", 1)
+    magic, size = header.split(b"\n")
+    assert magic == b"PF"
+    width, height = map(int, size.split())
+    return np.frombuffer(data, "<f4").reshape(height, width, 3)[::-1]
+
+
 def read_exr(path: Path) -> Exr:
     """Every channel of an .exr."""
     spec, pixels = read_pixels(path)
