@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The live parameters in the data properties of a field, a panel a section of the table."""
+"""The panels of a field: its live parameters, a panel a section of the table."""
 
+from collections.abc import Callable
 from typing import Any
 
 import bpy
@@ -20,48 +21,59 @@ def draw_parameters(layout: Any, group: Any, section: str) -> None:
             column.prop(group, name, slider=0 < control.maximum <= 1)
 
 
-class _FieldPanel:
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "data"
-
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        return context.object is not None and context.object.type == "MESH" and context.object.glimmer_field.enabled
+def _is_field(context: Any) -> bool:
+    return context.object is not None and context.object.type == "MESH" and context.object.glimmer_field.enabled
 
 
-class GLIMMER_PT_hexagon_field(_FieldPanel, bpy.types.Panel):
-    bl_label = "Hexagon Field"
-
-    def draw(self, context: Any) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        obj = context.object
-        try:
-            check(properties.read(obj.glimmer_field))
-        except ValueError as error:
-            layout.label(text=str(error), icon="ERROR")
-        if obj.data.is_editmode:
-            layout.label(text="Leave edit mode to change the field", icon="INFO")
-        if obj.animation_data is not None and not context.scene.render.use_lock_interface:
-            layout.label(text="Animated: lock the interface while rendering", icon="INFO")
-            layout.prop(context.scene.render, "use_lock_interface")
-        layout.label(text=f"{len(obj.data.vertices)} plates")
-        layout.prop(obj.glimmer_field, "plate_material")
-        layout.prop(obj.glimmer_field, "bevel_material")
+def _draw_field(self: Any, context: Any) -> None:
+    layout = self.layout
+    layout.use_property_split = True
+    obj = context.object
+    try:
+        check(properties.read(obj.glimmer_field))
+    except ValueError as error:
+        layout.label(text=str(error), icon="ERROR")
+    if obj.data.is_editmode:
+        layout.label(text="Leave edit mode to change the field", icon="INFO")
+    if obj.animation_data is not None and not context.scene.render.use_lock_interface:
+        layout.label(text="Animated: lock the interface while rendering", icon="INFO")
+        layout.prop(context.scene.render, "use_lock_interface")
+    layout.label(text=f"{len(obj.data.vertices)} plates")
+    layout.prop(obj.glimmer_field, "plate_material")
+    layout.prop(obj.glimmer_field, "bevel_material")
 
 
-def _section_panel(section: str) -> type:
+def _draw_section(section: str) -> Callable[[Any, Any], None]:
     def draw(self: Any, context: Any) -> None:
         self.layout.use_property_split = True
         draw_parameters(self.layout, context.object.glimmer_field, section)
 
-    name = f"GLIMMER_PT_hexagon_field_{section.lower()}"
-    members = {"bl_label": section, "bl_parent_id": "GLIMMER_PT_hexagon_field", "draw": draw}
-    return type(name, (_FieldPanel, bpy.types.Panel), members)
+    return draw
 
 
-_CLASSES = (GLIMMER_PT_hexagon_field, *(_section_panel(section) for section in SECTIONS))
+# The same panels stand in the data properties and in the sidebar of the viewport.
+_PLACES = {
+    "GLIMMER_PT_hexagon_field": {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "data"},
+    "GLIMMER_PT_hexagon_field_sidebar": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Glimmer"},
+}
+
+
+def _panels(name: str, place: dict[str, str]) -> list[type]:
+    """The panel of a place and its children, one a section."""
+    common = {**place, "poll": classmethod(lambda _cls, context: _is_field(context))}
+    parent = type(name, (bpy.types.Panel,), {**common, "bl_label": "Hexagon Field", "draw": _draw_field})
+    children = [
+        type(
+            f"{name}_{section.lower()}",
+            (bpy.types.Panel,),
+            {**common, "bl_label": section, "bl_parent_id": name, "draw": _draw_section(section)},
+        )
+        for section in SECTIONS
+    ]
+    return [parent, *children]
+
+
+_CLASSES = tuple(panel for name, place in _PLACES.items() for panel in _panels(name, place))
 
 
 def register() -> None:

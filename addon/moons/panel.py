@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Radius, colour and radiance of a moon in its data properties."""
+"""Radius, colour and radiance of a moon in its data properties and in the sidebar."""
 
 from typing import Any
 
@@ -8,18 +8,15 @@ import bpy
 from .moon import emission_node
 
 
-class GLIMMER_PT_moon(bpy.types.Panel):
+class _MoonPanel:
     bl_label = "Moon"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "data"
 
     @classmethod
     def poll(cls, context: Any) -> bool:
         return emission_node(context.object) is not None
 
     def draw(self, context: Any) -> None:
-        layout = self.layout
+        layout = self.layout  # type: ignore[attr-defined]
         layout.use_property_split = True
         node = emission_node(context.object)
         layout.prop(context.object.glimmer_moon, "radius")
@@ -27,9 +24,26 @@ class GLIMMER_PT_moon(bpy.types.Panel):
         layout.prop(node.inputs["Strength"], "default_value", text="Radiance")
 
 
+class GLIMMER_PT_moon(_MoonPanel, bpy.types.Panel):
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "data"
+
+
+class GLIMMER_PT_moon_sidebar(_MoonPanel, bpy.types.Panel):
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Glimmer"
+
+
+_CLASSES = (GLIMMER_PT_moon, GLIMMER_PT_moon_sidebar)
+
+
 def register() -> None:
-    bpy.utils.register_class(GLIMMER_PT_moon)
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
 
 
 def unregister() -> None:
-    bpy.utils.unregister_class(GLIMMER_PT_moon)
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)
