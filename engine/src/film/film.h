@@ -5,6 +5,7 @@
 
 #include "film/passes.h"
 #include "film/sample.h"
+#include "math/rectangle.h"
 
 #include <array>
 #include <atomic>
@@ -21,10 +22,6 @@ inline constexpr uint32_t kReplicates = 8;
 constexpr uint64_t replicate_samples(uint64_t n, uint32_t r) {
     return (n + kReplicates - 1 - r) / kReplicates;
 }
-
-struct Rectangle {
-    uint32_t x = 0, y = 0, width = 0, height = 0;
-};
 
 /// Mean and variance of the mean of one pixel.
 struct PixelEstimate {

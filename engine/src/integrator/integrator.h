@@ -5,6 +5,7 @@
 
 #include "film/sample.h"
 #include "glimmer.h"
+#include "math/rectangle.h"
 #include "sampling/sampler.h"
 #include "scene/scene.h"
 
@@ -26,11 +27,31 @@ struct RayCounter {
     uint64_t rays = 0;
 };
 
+/// What all pixels of a pass share, and what the pixels of one block of it share.
+struct PassData {
+    virtual ~PassData() = default;
+};
+struct BlockData {
+    virtual ~BlockData() = default;
+};
+
+/// The side of a block, in pixels of the whole picture: the estimators' own, whatever the tiles are.
+inline constexpr uint32_t kBlockSize = 32;
+
 class Integrator {
   public:
     virtual ~Integrator() = default;
-    /// Radiance along the camera ray of one sample. `depth_scale` turns a distance on it into one along the axis.
-    virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, RayCounter &rays) const = 0;
+    /// Whether passes and blocks share anything.
+    virtual bool shares() const { return false; }
+    /// For sample number `sample` of every pixel. Depends on it and the seed alone.
+    virtual std::unique_ptr<const PassData> prepare_pass(uint64_t, uint64_t, RayCounter &) const { return nullptr; }
+    /// For the pixels of a block in that pass.
+    virtual std::unique_ptr<const BlockData> prepare_block(const PassData &, const Rectangle &, RayCounter &) const {
+        return nullptr;
+    }
+    /// Radiance along the camera ray of one sample. block: of its pass and pixel; null where nothing is shared.
+    virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
+                              RayCounter &rays) const = 0;
     /// Names the code that runs, and what of the engine the scene does not need.
     virtual std::string kernel() const = 0;
 };

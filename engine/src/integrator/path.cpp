@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/path.h"
 
-#include "bsdf/glass.h"
+#include "integrator/glass_crossing.h"
+#include "integrator/light_pool.h"
 #include "integrator/mis.h"
 #include "integrator/path_state.h"
 #include "integrator/surroundings.h"
@@ -23,12 +24,18 @@ constexpr uint64_t kVertexGuard = 1u << 22; // of one camera sample; reached onl
 // Stratified sample sets of the camera's own segment; everything later draws independent numbers.
 enum Set : uint32_t { kSetCollision = 2, kSetPhase, kSetLobe, kSetBsdf, kSetLine = 16, kSetLight = 80 };
 
+/// Kept from sample to sample, so that the path loop allocates nothing.
+std::vector<PathState> &thread_stack() {
+    thread_local std::vector<PathState> stack;
+    return stack;
+}
+
 /// The work on one camera sample.
 class PathSample {
   public:
-    PathSample(const Scene &scene, const DepthLimits &limits, const PathOptions &options, Sampler &sampler,
-               RayCounter &rays)
-        : scene_(scene), limits_(limits), options_(options), sampler_(sampler), rays_(rays) {
+    PathSample(const Scene &scene, const DepthLimits &limits, const PathOptions &options, const LightPoolBlock *pool,
+               Sampler &sampler, RayCounter &rays)
+        : scene_(scene), limits_(limits), options_(options), pool_(pool), sampler_(sampler), rays_(rays) {
         if (scene_.medium) {
             const Rgb &s = scene_.medium->sigma_t;
             sigma_ = std::min(s.r, std::min(s.g, s.b));
@@ -36,10 +43,14 @@ class PathSample {
     }
 
     FilmSample run(const PathState &camera) {
+        stack_.clear();
         push(camera);
         uint64_t vertices = 0;
-        while (count_ > 0 && ++vertices < kVertexGuard)
-            follow(stack_[--count_]);
+        while (!stack_.empty() && ++vertices < kVertexGuard) {
+            const PathState next = stack_.back();
+            stack_.pop_back();
+            follow(next);
+        }
         return result_;
     }
 
@@ -47,10 +58,11 @@ class PathSample {
     // -- One segment ---------------------------------------------------------------------------------------------
 
     void follow(PathState state) {
-        const std::optional<Hit> hit = scene_.accel->intersect(state.ray);
-        ++rays_.rays;
-        const float end = hit ? hit->t : kInfinity;
         const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+        if (state.compensates())
+            return compensate(state, *fog);
+        const std::optional<Hit> hit = intersect(state.ray);
+        const float end = hit ? hit->t : kInfinity;
 
         add_lamps(state, end, fog);
         std::optional<Interaction> surface;
@@ -66,10 +78,12 @@ class PathSample {
             return;
 
         if (fog && fog->scatters() && state.scatter < limits_.scatter) {
-            const bool split = options_.split && state.direct_view() && count_ + 2 < kBranches;
+            const bool split = pool_ || (options_.split && state.direct_view() && stack_.size() < kBranches);
             if (lights_along(state))
                 sample_lights_along(state, end, *fog, split);
-            if (split)
+            if (pool_)
+                gather_along(state, end, *fog);
+            else if (split)
                 split_into_fog(state, end, *fog);
             else if (fly_into_fog(state, end, *fog))
                 return;
@@ -83,6 +97,70 @@ class PathSample {
         if (fog && state.direct_view()) // an absorber in front of everything dims the picture, not what is behind it
             state.exempt *= least_absorbed(*fog, end);
         scatter_at_surface(state, *surface);
+    }
+
+    // -- Light vertices ------------------------------------------------------------------------------------------
+
+    /// Points in the fog of the segment that are joined to the pool; several where the camera sees it directly.
+    void gather_along(const PathState &state, float end, const Homogeneous &fog) {
+        const uint32_t n = state.direct_view() ? pool_->settings.gathers : 1;
+        const uint64_t stratum = ~0ull / n;
+        for (uint32_t k = 0; k < n; ++k) {
+            const uint64_t bits = stratum * k + sampler_.next_bits() / n;
+            const Collision c = sample_collision(fog, state.beta, end, fog.grey ? 0 : sampler_.next_1d(), bits);
+            if (!(c.pdf > 0))
+                return;
+            PathState at = state;
+            at.beta *= c.weight * (1 / float(n));
+            at.ray.origin = state.ray.origin + state.ray.direction * c.t;
+            at.first = state.direct_view() ? PathState::First::fog : state.first;
+            gather(at, float(n));
+        }
+    }
+
+    /// All light that reaches state.ray.origin scattered, as the fog scatters it there: from the pool, and by a short
+    /// ray for what the pool's bounded connections leave out. `scale`: the point is one of so many.
+    void gather(PathState &state, float scale) {
+        const Vec3f x = state.ray.origin;
+        state.exempt /= scale;
+        if (!survives(state, x))
+            return;
+        state.exempt *= scale;
+        const Rgb value = state.beta * pool_->pool.gather(x, sampler_, rays_);
+        (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
+        const float u = sampler_.next_1d(), k = std::sqrt((1 - u) / std::max(u, 1e-12f)); // P(k d0 > d) = 1 - w(d)
+        state.fog_reach = k * pool_->settings.fog_bound;
+        state.surface_reach = k * pool_->settings.surface_bound;
+        state.ray = {x, sample_uniform_sphere(sampler_.next_2d())};
+        state.origin = {};
+        ++state.depth;
+        ++state.scatter;
+        ++state.order;
+        push(state);
+    }
+
+    /// The share 1 - w(d) of the vertex that a ray from a gather meets. Specular surfaces hold no vertices: they are
+    /// passed in full.
+    void compensate(PathState &state, const Homogeneous &fog) {
+        const float fog_reach = state.fog_reach, surface_reach = state.surface_reach;
+        state.fog_reach = state.surface_reach = kInfinity;
+        const float reach = scene_.has_specular ? kInfinity : std::max(fog_reach, surface_reach);
+        state.ray.t_max = reach;
+        const std::optional<Hit> hit = intersect(state.ray);
+        const float end = hit ? hit->t : reach;
+        state.ray.t_max = kInfinity;
+        const FreeFlight flight = sample_free_flight(fog, state.beta, end, sampler_);
+        state.beta *= flight.weight;
+        if (flight.scattered) {
+            if (flight.t > fog_reach)
+                return;
+            state.ray.origin = state.ray.origin + state.ray.direction * flight.t;
+            sample_light_in_fog(state, state.ray.origin, fog, false);
+            gather(state, 1);
+        } else if (hit) {
+            const Interaction surface = scene_.interaction(state.ray, *hit);
+            scatter_at_surface(state, surface, hit->t <= surface_reach);
+        }
     }
 
     /// The largest transmittance of a channel as far as absorption goes.
@@ -229,7 +307,7 @@ class PathSample {
             if (is_black(unshadowed) || occluded(x, *light))
                 continue;
             float weight = 1;
-            if (!light->delta) {
+            if (!light->delta && !pool_) { // a pool's gathers are not lit by chance
                 const float p_distance =
                     split ? collision_pdf(fog, state.beta, end, at.t) : free_flight_pdf(fog, state.beta, at.t);
                 weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
@@ -267,7 +345,7 @@ class PathSample {
         next.beta *= weight;
         const Vec3f x = state.ray.origin + state.ray.direction * t;
         if (!lights_along(state))
-            sample_light_in_fog(next, x, fog);
+            sample_light_in_fog(next, x, fog, true);
         if (!survives(next, x))
             return;
         const bool camera = state.depth == 0;
@@ -292,8 +370,8 @@ class PathSample {
         push(next);
     }
 
-    /// One light at a collision, against the phase function that goes on from there.
-    void sample_light_in_fog(const PathState &state, const Vec3f &x, const Homogeneous &fog) {
+    /// One light at a collision; by_chance: against the phase function that goes on from there and may meet it too.
+    void sample_light_in_fog(const PathState &state, const Vec3f &x, const Homogeneous &fog, bool by_chance) {
         if (scene_.lights.size() == 0)
             return;
         const LightChoice choice = choose(0, false, x);
@@ -305,7 +383,7 @@ class PathSample {
             fog.transmittance(light->distance) * light->radiance * (p_phase / light->pdf / choice.probability);
         if (is_black(unshadowed) || occluded(x, *light))
             return;
-        const float weight = light->delta ? 1 : balance(choice.probability * light->pdf, p_phase);
+        const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);
         const Rgb value = state.beta * unshadowed * weight;
         (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
     }
@@ -320,12 +398,13 @@ class PathSample {
         result_.material_index = surface.material + 1;
     }
 
-    void scatter_at_surface(PathState &state, const Interaction &surface) {
+    /// rough: also by the lobes that hold light vertices; else by mirrors and glass alone.
+    void scatter_at_surface(PathState &state, const Interaction &surface, bool rough = true) {
         const Material &material = scene_.materials[surface.material];
         if (material.kind == MaterialKind::glass)
             return pass_glass(state, surface, material);
         const Bsdf bsdf = scene_.bsdf(material);
-        if (bsdf.empty())
+        if (bsdf.empty() || !(rough || has_specular(bsdf)))
             return;
         const bool camera = state.depth == 0;
         const Vec3f wo = -state.ray.direction;
@@ -343,12 +422,12 @@ class PathSample {
             result_.albedo = albedo(bsdf);
 
         const bool all = state.direct_view();
-        if (!is_specular(bsdf))
+        if (rough && !is_specular(bsdf))
             sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, all);
 
         const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe) : sampler_.next_1d(),
                               camera ? sampler_.stratified_2d(kSetBsdf) : sampler_.next_2d());
-        if (!s)
+        if (!s || !(rough || s->specular))
             return;
         const Vec3f wi = normalize(frame.to_world(s->wi));
         if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
@@ -411,30 +490,15 @@ class PathSample {
     }
 
     void pass_glass(PathState &state, const Interaction &surface, const Material &material) {
-        const Vec3f wo = -state.ray.direction;
-        const bool entering = dot(wo, surface.geometric_normal) > 0;
-        GlassStack beyond = state.glass;
-        if (entering)
-            beyond.enter(surface.body, material.ior);
-        else
-            beyond.leave(surface.body);
-        const float side = entering ? 1.0f : -1.0f;
-        const Vec3f geometric = surface.geometric_normal * side;
-        Vec3f shading = surface.shading_normal * side;
-        if (!(dot(wo, shading) > 1e-6f))
-            shading = geometric;
-        const Frame frame(shading);
-        Vec3f wo_local = frame.to_local(wo);
-        wo_local.z = std::max(wo_local.z, 1e-7f);
-        const float here = entering || !state.glass.empty() ? state.glass.ior() : material.ior;
-        const GlassSample s = sample_glass(wo_local, beyond.ior() / here, material.schlick, sampler_.next_1d());
-        const Vec3f wi = normalize(frame.to_world(s.wi));
-        if ((dot(wi, geometric) < 0) != s.transmitted)
+        const GlassCrossing crossing(surface, material, state.ray.direction, state.glass);
+        const GlassSample s = sample_glass(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
+        const Vec3f wi = crossing.to_world(s.wi);
+        if (!crossing.possible(wi, s.transmitted))
             return;
         state.beta *= s.weight;
         state.exempt *= s.weight.r;
         if (s.transmitted)
-            state.glass = beyond;
+            state.glass = crossing.beyond;
         if (!survives(state, surface.position))
             return;
         state.ray = {surface.origin_towards(wi), wi};
@@ -448,6 +512,11 @@ class PathSample {
 
     /// `moved`: how far the origin was moved off its surface at most. A triangle that shines must not shadow itself, so
     /// the ray ends short of it by all errors of both ends, seen along its plane.
+    std::optional<Hit> intersect(const Ray &ray) {
+        ++rays_.rays;
+        return scene_.accel->intersect(ray);
+    }
+
     bool occluded(const Vec3f &origin, const LightSample &light, float moved = 0) {
         ++rays_.rays;
         constexpr float direction_error = 0x1p-21f; // of a unit vector in float32, and of Embree's own arithmetic
@@ -471,38 +540,53 @@ class PathSample {
         return true;
     }
 
-    void push(const PathState &state) { stack_[count_++] = state; }
+    void push(const PathState &state) { stack_.push_back(state); }
 
     const Scene &scene_;
     const DepthLimits &limits_;
     const PathOptions &options_;
+    const LightPoolBlock *pool_; ///< null: plain paths
     Sampler &sampler_;
     RayCounter &rays_;
     float sigma_ = 0; ///< smallest extinction of the channels
     FilmSample result_;
-    std::array<PathState, kBranches> stack_;
-    size_t count_ = 0;
+    std::vector<PathState> &stack_ = thread_stack(); ///< branches still to follow
 };
 
 class PathIntegrator final : public Integrator {
   public:
     PathIntegrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options)
-        : scene_(scene), limits_(limits), options_(options), around_camera_(glass_around(scene, Vec3f())) {}
+        : scene_(scene), limits_(limits), options_(options), around_camera_(glass_around(scene, Vec3f())) {
+        if (options_.light_vertices && options_.line_lights && options_.deep_line_lights)
+            pool_ = plan_light_pool(scene, limits, around_camera_);
+    }
 
-    FilmSample sample(const CameraRay &camera, Sampler &sampler, RayCounter &rays) const override {
+    bool shares() const override { return pool_ != nullptr; }
+    std::unique_ptr<const PassData> prepare_pass(uint64_t seed, uint64_t sample, RayCounter &rays) const override {
+        return pool_->prepare_pass(seed, sample, rays);
+    }
+    std::unique_ptr<const BlockData> prepare_block(const PassData &pass, const Rectangle &block,
+                                                   RayCounter &rays) const override {
+        return pool_->prepare_block(pass, block, rays);
+    }
+
+    FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
+                      RayCounter &rays) const override {
         PathState state;
         state.ray = camera.ray;
         state.glass = around_camera_;
-        return PathSample(scene_, limits_, options_, sampler, rays).run(state);
+        return PathSample(scene_, limits_, options_, static_cast<const LightPoolBlock *>(block), sampler, rays)
+            .run(state);
     }
 
-    std::string kernel() const override { return "path"; }
+    std::string kernel() const override { return pool_ ? "path with shared light vertices" : "path"; }
 
   private:
     const Scene &scene_;
     DepthLimits limits_;
     PathOptions options_;
     GlassStack around_camera_;
+    std::unique_ptr<const LightPool> pool_;
 };
 
 } // namespace

@@ -15,10 +15,12 @@ struct PathOptions {
     bool guided_choice = true; ///< one light is chosen by what it could bring; else all alike
     bool line_lights = true;   ///< light is sampled along direct segments of fog; else at the collision that ends them
     bool deep_line_lights = true; ///< the same for all later segments
+    bool light_vertices =
+        true; ///< light scattered more than once comes from vertices shared by all pixels; else from paths alone
 };
 
 /// The student report's method, kept as a yardstick: one light, exponential free flights, balance heuristic.
-inline constexpr PathOptions kReportOptions{false, false, false, false, false};
+inline constexpr PathOptions kReportOptions{false, false, false, false, false, false};
 
 std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
                                                        const PathOptions &options);

@@ -41,7 +41,12 @@ struct PathState {
     uint32_t order = 0;    ///< vertices since then
     GlassStack glass;
 
-    /// Seen from the camera with nothing but mirrors and glass between: both ends of such a segment are followed.
+    /// A ray from a point in the fog that the pool has already given its light, but for what bounded connections leave
+    /// out: a vertex in the fog or on a surface counts no further than here. Infinite for every other segment.
+    float fog_reach = kInfinity, surface_reach = kInfinity;
+    bool compensates() const { return fog_reach < kInfinity; }
+
+    /// Seen from the camera with nothing but mirrors and glass between.
     bool direct_view() const { return first == First::none; }
 };
 

@@ -2,6 +2,7 @@
 #include "render/session.h"
 
 #include "api/error.h"
+#include "scene/camera_sample.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr uint64_t kLargestBatch = 64;
+constexpr uint64_t kLargestSharedBatch = 16; // what passes share is kept for the batch
 constexpr double kTileSeconds = 0.25; // a tile of a batch should take no longer: cancel and the display wait for it
 constexpr uint64_t kDefaultSamples = 64;
 
@@ -35,15 +37,6 @@ uint64_t thread_cpu_nanoseconds() {
 /// Blender's threads run with denormals flushed to zero, and threads inherit that: it turns e^-100 black.
 void keep_denormals() {
     _mm_setcsr(0x1f80);
-}
-
-float filter_offset(const FilmSettings &film, float u) {
-    if (film.filter_inverse.empty())
-        return u - 0.5f;
-    const float x = u * float(film.filter_inverse.size() - 1);
-    const size_t i = std::min(size_t(x), film.filter_inverse.size() - 2);
-    const float f = x - float(i);
-    return (film.filter_inverse[i] * (1 - f) + film.filter_inverse[i + 1] * f) * film.filter_width;
 }
 
 } // namespace
@@ -139,12 +132,16 @@ void Session::plan_batch() {
     uint64_t doubling = 1;
     while (doubling <= samples_)
         doubling *= 2;
-    uint64_t count = std::min(doubling - samples_, kLargestBatch);
+    uint64_t count = std::min(doubling - samples_, integrator_->shares() ? kLargestSharedBatch : kLargestBatch);
     if (slowest_tile_ > 0)
         count = std::min(count, std::max<uint64_t>(uint64_t(kTileSeconds / slowest_tile_), 1));
     if (settings_.samples)
         count = std::min(count, settings_.samples - samples_);
-    batch_ = {samples_, count, 0, 0};
+    batch_ = {};
+    batch_.first = samples_;
+    batch_.count = count;
+    if (integrator_->shares())
+        batch_.passes.resize(count);
 }
 
 void Session::work() {
@@ -152,11 +149,13 @@ void Session::work() {
     std::unique_lock lock(mutex_);
     const size_t tiles = film_.tiles().size();
     while (state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED) {
-        if (state_ == GLIMMER_PAUSED || between_batches_ || batch_.next_tile == tiles) {
+        const bool prepared = batch_.done_passes == batch_.passes.size();
+        if (state_ == GLIMMER_RUNNING && !between_batches_ && batch_.next_pass < batch_.passes.size())
+            take_pass(batch_.next_pass++, lock);
+        else if (state_ == GLIMMER_RUNNING && !between_batches_ && prepared && batch_.next_tile < tiles)
+            take_tile(batch_.next_tile++, lock);
+        else
             changed_.wait(lock);
-            continue;
-        }
-        take_tile(batch_.next_tile++, lock);
         changed_.notify_all();
     }
     // The last one out draws the last point of the curve, of whatever was finished; a cancel does not wait for it.
@@ -164,6 +163,36 @@ void Session::work() {
         add_curve_point(film_.min_samples(), lock);
     --alive_;
     changed_.notify_all();
+}
+
+/// Prepares what the pixels of one pass share; called with the lock held, which is let go meanwhile.
+void Session::take_pass(size_t index, std::unique_lock<std::mutex> &lock) {
+    ++busy_;
+    const uint64_t sample = batch_.first + index;
+    lock.unlock();
+    RayCounter rays;
+    std::unique_ptr<const PassData> pass;
+    std::exception_ptr failure;
+    const uint64_t cpu_start = thread_cpu_nanoseconds();
+    try {
+        pass = integrator_->prepare_pass(settings_.seed, sample, rays);
+    } catch (...) {
+        failure = std::current_exception();
+    }
+    cpu_nanoseconds_ += thread_cpu_nanoseconds() - cpu_start;
+    rays_ += rays.rays;
+    lock.lock();
+    --busy_;
+    if (failure)
+        return fail(failure);
+    batch_.passes[index] = std::move(pass);
+    ++batch_.done_passes;
+}
+
+void Session::fail(const std::exception_ptr &failure) {
+    if (!failure_)
+        failure_ = failure;
+    finish(GLIMMER_FAILED);
 }
 
 /// Renders what the batch still wants of a tile; called with the lock held, which is let go meanwhile.
@@ -189,12 +218,8 @@ void Session::take_tile(size_t tile, std::unique_lock<std::mutex> &lock) {
     rays_ += rays.rays;
     lock.lock();
     --busy_;
-    if (failure) {
-        if (!failure_)
-            failure_ = failure;
-        finish(GLIMMER_FAILED);
-        return;
-    }
+    if (failure)
+        return fail(failure);
     if (!whole) {
         if (state_ == GLIMMER_RUNNING)
             finish(GLIMMER_FINISHED); // only the time limit breaks a tile off while running
@@ -246,23 +271,28 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
     const FilmSettings &settings = scene_->film;
     Film::Tile tile(film_, index);
     std::vector<InvalidSample> invalid;
-    for (uint32_t y = 0; y < area.height; ++y)
-        for (uint32_t x = 0; x < area.width; ++x) {
-            if (stop_.load(std::memory_order_relaxed) || (x % 16 == 0 && now() > deadline))
-                return false;
-            const uint32_t px = settings.crop_x + area.x + x, py = settings.crop_y + area.y + y;
+    // Blocks are the integrator's; tiles are made of whole ones, so their size changes nothing.
+    for (uint32_t by = 0; by < area.height; by += kBlockSize)
+        for (uint32_t bx = 0; bx < area.width; bx += kBlockSize) {
+            const Rectangle block{settings.crop_x + area.x + bx, settings.crop_y + area.y + by,
+                                  std::min(kBlockSize, area.width - bx), std::min(kBlockSize, area.height - by)};
             for (uint64_t s = first; s < end; ++s) {
-                Sampler sampler(settings_.seed, px, py, uint32_t(s % kReplicates), uint32_t(s / kReplicates));
-                const Vec2f u = sampler.stratified_2d(kSetPixel);
-                const Vec2f film{(float(px) + 0.5f + filter_offset(settings, u.x)) / float(settings.width),
-                                 (float(py) + 0.5f + filter_offset(settings, u.y)) / float(settings.height)};
-                const Vec2f lens =
-                    scene_->camera.lens_radius > 0 ? sample_uniform_disk(sampler.stratified_2d(kSetLens)) : Vec2f{};
-                const FilmSample value = integrator_->sample(scene_->camera.generate(film, lens), sampler, rays);
-                if (is_finite(value.radiance()))
-                    tile.add(x, y, s, value);
-                else
-                    invalid.push_back({px, py, s});
+                std::unique_ptr<const BlockData> shared;
+                if (!batch_.passes.empty())
+                    shared = integrator_->prepare_block(*batch_.passes[s - batch_.first], block, rays);
+                for (uint32_t y = block.y; y < block.y + block.height; ++y)
+                    for (uint32_t x = block.x; x < block.x + block.width; ++x) {
+                        if (stop_.load(std::memory_order_relaxed) || (x % 16 == 0 && now() > deadline))
+                            return false;
+                        Sampler sampler(settings_.seed, x, y, uint32_t(s % kReplicates), uint32_t(s / kReplicates));
+                        const CameraRay camera = sample_camera_ray(*scene_, x, y, sampler.stratified_2d(kSetPixel),
+                                                                   sampler.stratified_2d(kSetLens));
+                        const FilmSample value = integrator_->sample(camera, sampler, shared.get(), rays);
+                        if (is_finite(value.radiance()))
+                            tile.add(x - settings.crop_x - area.x, y - settings.crop_y - area.y, s, value);
+                        else
+                            invalid.push_back({x, y, s});
+                    }
             }
         }
     tile.commit(end);

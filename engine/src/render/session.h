@@ -58,12 +58,16 @@ class Session {
   private:
     struct Batch {
         uint64_t first = 0, count = 0;
+        std::vector<std::unique_ptr<const PassData>> passes; ///< what they share; empty where they share nothing
+        size_t next_pass = 0, done_passes = 0;
         size_t next_tile = 0, done_tiles = 0;
     };
 
     void work();
     /// Adds samples [first, end) to a tile; false when it was broken off (nothing of it is kept then).
     bool render_tile(size_t tile, uint64_t first, uint64_t end, double deadline, RayCounter &rays);
+    void take_pass(size_t index, std::unique_lock<std::mutex> &lock);
+    void fail(const std::exception_ptr &failure);
     void take_tile(size_t tile, std::unique_lock<std::mutex> &lock);
     void add_curve_point(uint64_t samples, std::unique_lock<std::mutex> &lock);
     void end_batch(std::unique_lock<std::mutex> &lock);

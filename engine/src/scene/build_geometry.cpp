@@ -42,6 +42,13 @@ std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription
     return rest->triangles.empty() ? nullptr : rest;
 }
 
+void SceneBuilder::use(uint32_t index) {
+    const Material &material = scene_.materials[index];
+    used_[index] = true;
+    scene_.has_glass |= material.kind == MaterialKind::glass;
+    scene_.has_specular |= material.kind == MaterialKind::glass || has_specular(scene_.bsdf(material));
+}
+
 void SceneBuilder::build_geometry() {
     std::vector<Instance> instances;
     size_t flat = 0;
@@ -52,8 +59,7 @@ void SceneBuilder::build_geometry() {
             continue;
         }
         for (uint32_t material : object.materials) {
-            used_[material] = true;
-            scene_.has_glass |= scene_.materials[material].kind == MaterialKind::glass;
+            use(material);
         }
         const auto index = uint32_t(scene_.object_materials.size());
         scene_.object_materials.push_back(object.materials);
@@ -96,8 +102,7 @@ void SceneBuilder::build_geometry() {
             ++absent_objects_;
             continue;
         }
-        used_[group.material] = true;
-        scene_.has_glass |= material.kind == MaterialKind::glass;
+        use(group.material);
         for (size_t i = 0; i < group.centers.size(); ++i) {
             spheres.push_back({group.centers[i] - origin_, group.radii.size() == 1 ? group.radii[0] : group.radii[i]});
             scene_.sphere_materials.push_back(group.material);

@@ -21,6 +21,7 @@ class SceneBuilder {
 
   private:
     void flatten(uint32_t material, float weight, std::vector<WeightedLobe> &lobes, Rgb &emission) const;
+    void use(uint32_t material);
     std::shared_ptr<const Mesh> without_absent(const ObjectDescription &object) const;
     void add_sphere_lights(std::vector<Light> &lights) const;
     void add_mesh_light(std::vector<Light> &lights) const;

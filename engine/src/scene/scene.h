@@ -62,8 +62,9 @@ class Scene {
     std::unique_ptr<Accel> accel;
     LightSet lights;
     bool has_glass = false;
-    Vec3f bounds_center;     ///< of all surfaces and finite lights
-    float bounds_radius = 0; ///< 0: there are none
+    bool has_specular = false; ///< glass, or a mirror among the lobes of a material in use
+    Vec3f bounds_center;       ///< of all surfaces and finite lights
+    float bounds_radius = 0;   ///< 0: there are none
     std::vector<std::string> warnings, left_out;
     double build_seconds = 0;
 

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrator/light_paths.h"
+
+#include "integrator/glass_crossing.h"
+#include "light/emission.h"
+#include "medium/phase.h"
+#include "scene/camera_sample.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+constexpr float kGuidedStart = 0.85f;       // of the paths start by importance, the rest at any light
+constexpr uint32_t kVertexGuard = 1u << 20; // of one path
+
+/// One path. All of its decisions follow the flux, so refraction scales nothing.
+class LightPath {
+  public:
+    LightPath(const Scene &scene, const CameraImportance &importance, Sampler &sampler, RayCounter &rays,
+              LightVertices &out)
+        : scene_(scene), importance_(importance), sampler_(sampler), rays_(rays), out_(out) {}
+
+    void trace(const Emission &start, const GlassStack &around, float target) {
+        ray_ = start.ray;
+        power_ = start.power;
+        glass_ = around;
+        target_ = target;
+        for (uint32_t i = 0; i < kVertexGuard && segment(); ++i) {
+        }
+    }
+
+  private:
+    bool segment() {
+        const auto hit = scene_.accel->intersect(ray_);
+        ++rays_.rays;
+        const float own = ray_.t_max; // finite only within a see-through ball, where it ends
+        ray_.t_max = kInfinity;
+        if (scene_.medium && glass_.empty()) {
+            const FreeFlight flight = sample_free_flight(*scene_.medium, power_, hit ? hit->t : own, sampler_);
+            power_ *= flight.weight;
+            if (flight.scattered)
+                return scatter_in_fog(ray_.origin + ray_.direction * flight.t);
+        }
+        return hit && scatter_at_surface(*hit);
+    }
+
+    /// Roulette against the importance of the place: paths that cannot be seen end, those that go where the camera
+    /// looks stay.
+    bool survives(const Vec3f &x) {
+        const float weight = max_component(power_) * importance_(x) / target_;
+        if (!(weight > 0))
+            return false;
+        if (weight >= 1)
+            return true;
+        if (sampler_.next_1d() >= weight)
+            return false;
+        power_ *= 1 / weight;
+        return true;
+    }
+
+    bool scatter_in_fog(const Vec3f &x) {
+        if (!survives(x))
+            return false;
+        out_.fog.add(x, power_);
+        ray_ = {x, HenyeyGreenstein{scene_.medium->g}.sample(ray_.direction, sampler_.next_2d()).direction};
+        return true;
+    }
+
+    bool scatter_at_surface(const Hit &hit) {
+        const Interaction surface = scene_.interaction(ray_, hit);
+        const Material &material = scene_.materials[surface.material];
+        if (material.kind == MaterialKind::glass)
+            return pass_glass(surface, material);
+        const Bsdf bsdf = scene_.bsdf(material);
+        if (bsdf.empty() || !survives(surface.position))
+            return false;
+        const Vec3f incoming = -ray_.direction;
+        const float side = dot(incoming, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
+        SurfaceVertex v{surface.position,
+                        surface.geometric_normal * side,
+                        surface.shading_normal * side,
+                        incoming,
+                        surface.error,
+                        power_,
+                        0,
+                        surface.material};
+        if (!(dot(incoming, v.geometric) > 0))
+            return false;
+        v.reflectance = luminance(power_ * albedo(bsdf));
+        if (!is_specular(bsdf))
+            out_.surface.push_back(v);
+        return reflect(v, surface, bsdf);
+    }
+
+    /// Samples the adjoint of what a camera path does: f |w_in.ns| / |w_in.ng| * |w_out.ng|, with the frame as seen
+    /// along w_out (Veach 1997, 5.3). Where the normals differ, an eighth of the directions is drawn about the true
+    /// normal, since the frame of w_in has no samples for some that the camera can see.
+    bool reflect(const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
+        const bool bent = !(v.shading == v.geometric);
+        const Vec3f own_shading = dot(v.incoming, v.shading) > 1e-6f ? v.shading : v.geometric;
+        const Frame frame(own_shading);
+        const Vec3f incoming = frame.to_local(v.incoming);
+        if (!(incoming.z > 0))
+            return false;
+        constexpr float kTrueNormal = 0.125f;
+        Vec3f direction;
+        float density;
+        if (bent && sampler_.next_1d() < kTrueNormal) {
+            direction = normalize(Frame(v.geometric).to_world(sample_cosine_hemisphere(sampler_.next_2d())));
+            density = pdf(bsdf, incoming, frame.to_local(direction));
+        } else {
+            const auto s = sample(bsdf, incoming, sampler_.next_1d(), sampler_.next_2d());
+            if (!s)
+                return false;
+            direction = normalize(frame.to_world(s->wi));
+            if (!(dot(direction, v.geometric) > 0))
+                return false;
+            density = s->pdf;
+            if (!bent || s->specular) {
+                power_ *= s->weight *
+                          ((incoming.z / dot(v.incoming, v.geometric)) *
+                           (dot(direction, v.geometric) / std::max(s->wi.z, 1e-7f)) / (bent ? 1 - kTrueNormal : 1.0f));
+                return leave(surface, direction);
+            }
+        }
+        const float cosine = dot(direction, v.geometric);
+        if (!(cosine > 0))
+            return false;
+        density = (1 - kTrueNormal) * density + kTrueNormal * pdf_cosine_hemisphere(cosine);
+        power_ *= connection_factor(v, bsdf, direction) * (1 / density);
+        return leave(surface, direction);
+    }
+
+    bool leave(const Interaction &surface, const Vec3f &direction) {
+        ray_ = {surface.origin_towards(direction), direction};
+        return true;
+    }
+
+    bool pass_glass(const Interaction &surface, const Material &material) {
+        const GlassCrossing crossing(surface, material, ray_.direction, glass_);
+        const GlassSample s = sample_glass(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
+        const Vec3f direction = crossing.to_world(s.wi);
+        if (!crossing.possible(direction, s.transmitted))
+            return false;
+        if (s.transmitted)
+            glass_ = crossing.beyond;
+        return leave(surface, direction);
+    }
+
+    const Scene &scene_;
+    const CameraImportance &importance_;
+    Sampler &sampler_;
+    RayCounter &rays_;
+    LightVertices &out_;
+    Ray ray_;
+    Rgb power_;
+    GlassStack glass_;
+    float target_ = 1;
+};
+
+} // namespace
+
+Rgb connection_factor(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction) {
+    const float cosine = dot(direction, v.geometric);
+    if (!(cosine > 0))
+        return {};
+    const Frame frame(dot(direction, v.shading) > 1e-6f ? v.shading : v.geometric);
+    const Vec3f incoming = frame.to_local(v.incoming), outgoing = frame.to_local(direction);
+    if (!(incoming.z > 0) || !(outgoing.z > 0))
+        return {};
+    return eval(bsdf, outgoing, incoming) * (cosine / dot(v.incoming, v.geometric));
+}
+
+CameraImportance::CameraImportance(const Scene &scene, std::vector<Vec3f> points) : points_(std::move(points)) {
+    if (!scene.medium)
+        return;
+    const float sigma_t = max_component(scene.medium->sigma_t), sigma_s = max_component(scene.medium->sigma_s);
+    kappa_ = std::sqrt(3 * std::max(1 - sigma_s / sigma_t, 0.0f)) * sigma_t;
+    soften_ = 0.25f / (sigma_t * sigma_t);
+}
+
+float CameraImportance::operator()(const Vec3f &x) const {
+    float sum = 1e-30f;
+    for (const Vec3f &q : points_) {
+        const float d2 = length_squared(x - q);
+        sum += std::exp(-kappa_ * std::sqrt(d2)) / std::sqrt(d2 + soften_);
+    }
+    return sum;
+}
+
+std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
+                                       Sampler &sampler, RayCounter &rays) {
+    if (!scene.medium || !around_camera.empty())
+        return std::nullopt;
+    const auto pick = [&](uint32_t first, uint32_t count) {
+        return first + std::min(uint32_t(sampler.next_1d() * float(count)), count - 1);
+    };
+    const uint32_t x = pick(pixels.x, pixels.width), y = pick(pixels.y, pixels.height);
+    const CameraRay camera = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d());
+    const auto hit = scene.accel->intersect(camera.ray);
+    ++rays.rays;
+    const Collision c = sample_collision(*scene.medium, Rgb(1), hit ? hit->t : kInfinity, sampler);
+    return camera.ray.origin + camera.ray.direction * c.t;
+}
+
+LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance,
+                                const std::vector<GlassStack> &around_lights, uint32_t paths, Sampler &sampler,
+                                RayCounter &rays) {
+    const LightSet &lights = scene.lights;
+    std::vector<double> shares(lights.size());
+    double total = 0;
+    uint32_t finite = 0;
+    for (uint32_t i = 0; i < lights.size(); ++i)
+        if (const LightBound &b = lights.bound(i); !b.infinite) {
+            total += shares[i] = double(b.strength) * double(importance(b.center));
+            ++finite;
+        }
+    LightVertices out;
+    if (!finite)
+        return out;
+    for (uint32_t i = 0; i < lights.size(); ++i)
+        if (!lights.bound(i).infinite)
+            shares[i] = (total > 0 ? double(kGuidedStart) * shares[i] / total + double(1 - kGuidedStart) / finite
+                                   : 1.0 / finite);
+    LightPath path(scene, importance, sampler, rays, out);
+    // One systematic draw: light i gets its share of the paths, to within one.
+    double cursor = double(sampler.next_1d()), sum = 0;
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        sum += shares[i] * paths;
+        const LightBound &b = lights.bound(i);
+        const bool inwards = length(b.center) < b.radius; // the camera stands at the origin
+        for (; cursor < sum; cursor += 1) {
+            const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+            auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());
+            if (!start || is_black(start->power))
+                continue;
+            start->power *= float(1 / (shares[i] * paths));
+            const float target = max_component(start->power) * importance(b.center);
+            path.trace(*start, around_lights[i], target);
+        }
+    }
+    return out;
+}
+
+} // namespace glimmer

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Paths from the lights, shared by all pixels of a pass: they leave vertices wherever fog or a rough surface scatters
+// them.
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "integrator/glass_stack.h"
+#include "integrator/integrator.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace glimmer {
+
+/// Power scattered by the fog at points, as a structure of arrays.
+struct FogVertices {
+    std::vector<float> x, y, z, r, g, b;
+    size_t size() const { return x.size(); }
+    void add(const Vec3f &position, const Rgb &power) {
+        x.push_back(position.x), y.push_back(position.y), z.push_back(position.z);
+        r.push_back(power.r), g.push_back(power.g), b.push_back(power.b);
+    }
+    Vec3f position(size_t i) const { return {x[i], y[i], z[i]}; }
+    Rgb power(size_t i) const { return {r[i], g[i], b[i]}; }
+};
+
+/// Power that arrives at a surface from a direction.
+struct SurfaceVertex {
+    Vec3f position, geometric, shading; ///< normals on the side of `incoming`
+    Vec3f incoming;                     ///< unit, away from the surface
+    float error;
+    Rgb power;
+    float reflectance; ///< luminance of power * albedo: what it is worth
+    uint32_t material;
+};
+
+struct LightVertices {
+    FogVertices fog;
+    std::vector<SurfaceVertex> surface;
+};
+
+/// f(incoming, direction) |incoming.ns| / |incoming.ng| * |direction.ng|: the part of the vertex's power that leaves
+/// per solid angle towards the unit `direction`, as a camera path that arrives from there would count it.
+Rgb connection_factor(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction);
+
+/// What the camera could see of a point: the importance that light paths are steered by (never their mean). Sum over
+/// fog points q on random camera rays of e^(-kappa d) / sqrt(d^2 + l^2).
+class CameraImportance {
+  public:
+    CameraImportance(const Scene &scene, std::vector<Vec3f> points);
+    float operator()(const Vec3f &x) const;
+
+  private:
+    std::vector<Vec3f> points_;
+    float kappa_ = 0, soften_ = 1;
+};
+
+/// One fog point on a random camera ray of the rectangle of pixels; nothing when the ray starts within glass.
+std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
+                                       Sampler &sampler, RayCounter &rays);
+
+/// Traces `paths` light paths. The mean over passes of the vertices' power, anywhere, is the power that is scattered
+/// there.
+LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance,
+                                const std::vector<GlassStack> &around_lights, uint32_t paths, Sampler &sampler,
+                                RayCounter &rays);
+
+} // namespace glimmer

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrator/light_pool.h"
+
+#include "integrator/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+constexpr uint32_t kImportancePoints = 32; // seen points that steer the light paths
+constexpr uint32_t kBlockPoints = 12;      // seen points that stand for a block
+constexpr uint32_t kPixelsPerPath = 6;     // light paths cost about a tenth of the camera's work then
+constexpr uint64_t kPassStream = 0x9a55, kBlockStream = 0xb10c,
+                   kPilotStream = 0x9107; // keep the streams of random numbers apart
+
+struct LightPass final : PassData {
+    uint64_t seed, sample;
+    LightVertices vertices;
+};
+
+Sampler stream(uint64_t kind, uint64_t seed, uint64_t sample, uint32_t x, uint32_t y) {
+    return {hash64(seed, kind), x, y, uint32_t(sample >> 32), uint32_t(sample)};
+}
+
+} // namespace
+
+LightPool::LightPool(const Scene &scene, const GlassStack &around_camera)
+    : scene_(scene), around_camera_(around_camera) {
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+        around_lights_.push_back(scene.lights.bound(i).infinite ? GlassStack{}
+                                                                : glass_around(scene, scene.lights.bound(i).center));
+    const FilmSettings &film = scene.film;
+    settings_.paths = std::clamp(film.crop_width * film.crop_height / kPixelsPerPath, 256u, 65536u);
+    set_bounds();
+}
+
+/// d0 from a pilot pass: d0^2 = sigma / (4 pi density), at which a vertex that near brings about as much as all the
+/// light of its neighbourhood; the error is flat about it. The density is that of the vertices around points that the
+/// camera sees.
+void LightPool::set_bounds() {
+    constexpr uint32_t kPoints = 64, kNeighbours = 8;
+    RayCounter rays;
+    Sampler sampler = stream(kPilotStream, 0, 0, 0, 0);
+    const FilmSettings &film = scene_.film;
+    const Rectangle all{film.crop_x, film.crop_y, film.crop_width, film.crop_height};
+    const std::vector<Vec3f> points = seen_points(all, kPoints, sampler, rays);
+    const uint32_t paths = std::min(settings_.paths, 8192u);
+    const CameraImportance importance(scene_, seen_points(all, kImportancePoints, sampler, rays));
+    const LightVertices pilot = trace_light_paths(scene_, importance, around_lights_, paths, sampler, rays);
+    const float sigma = max_component(scene_.medium->sigma_t);
+    std::vector<float> densities;
+    for (const Vec3f &q : points) {
+        std::vector<float> d2;
+        for (size_t j = 0; j < pilot.fog.size(); ++j)
+            d2.push_back(length_squared(pilot.fog.position(j) - q));
+        if (d2.size() < kNeighbours)
+            continue;
+        std::nth_element(d2.begin(), d2.begin() + kNeighbours - 1, d2.end());
+        const float r = std::sqrt(d2[kNeighbours - 1]);
+        densities.push_back(kNeighbours / (4.0f / 3 * kPi * r * r * r));
+    }
+    float bound = 0.1f / sigma; // hardly any vertices: what is left for the pool is little
+    if (!densities.empty()) {
+        std::nth_element(densities.begin(), densities.begin() + long(densities.size() / 2), densities.end());
+        const float density = densities[densities.size() / 2] * float(settings_.paths) / float(paths);
+        bound = std::min(std::sqrt(sigma / (4 * kPi * density)), 1 / sigma);
+    }
+    settings_.fog_bound = bound;
+    settings_.surface_bound = 2 * bound;
+}
+
+std::vector<Vec3f> LightPool::seen_points(const Rectangle &pixels, uint32_t count, Sampler &sampler,
+                                          RayCounter &rays) const {
+    std::vector<Vec3f> points;
+    for (uint32_t i = 0; i < count; ++i)
+        if (const auto x = sample_seen_point(scene_, pixels, around_camera_, sampler, rays))
+            points.push_back(*x);
+    return points;
+}
+
+std::unique_ptr<const PassData> LightPool::prepare_pass(uint64_t seed, uint64_t sample, RayCounter &rays) const {
+    auto pass = std::make_unique<LightPass>();
+    pass->seed = seed;
+    pass->sample = sample;
+    Sampler sampler = stream(kPassStream, seed, sample, 0, 0);
+    const FilmSettings &film = scene_.film;
+    const CameraImportance importance(scene_, seen_points({film.crop_x, film.crop_y, film.crop_width, film.crop_height},
+                                                          kImportancePoints, sampler, rays));
+    pass->vertices = trace_light_paths(scene_, importance, around_lights_, settings_.paths, sampler, rays);
+    return pass;
+}
+
+std::unique_ptr<const BlockData> LightPool::prepare_block(const PassData &data, const Rectangle &block,
+                                                          RayCounter &rays) const {
+    const auto &pass = static_cast<const LightPass &>(data);
+    Sampler sampler = stream(kBlockStream, pass.seed, pass.sample, block.x, block.y);
+    const std::vector<Vec3f> points = seen_points(block, kBlockPoints, sampler, rays);
+    return std::make_unique<LightPoolBlock>(settings_, VertexPool(scene_, pass.vertices, settings_, points, sampler));
+}
+
+std::unique_ptr<const LightPool> plan_light_pool(const Scene &scene, const DepthLimits &limits,
+                                                 const GlassStack &around_camera) {
+    const DepthLimits none;
+    if (!scene.medium || !scene.medium->scatters() || scene.medium->g != 0 || !around_camera.empty() ||
+        limits.depth != none.depth || limits.scatter != none.scatter)
+        return nullptr;
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+        if (!scene.lights.bound(i).infinite)
+            return std::make_unique<LightPool>(scene, around_camera);
+    return nullptr;
+}
+
+} // namespace glimmer

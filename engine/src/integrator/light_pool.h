@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light vertices shared by all pixels of a pass: when they serve, how many there are, and who prepares them.
+#pragma once
+
+#include "integrator/vertex_pool.h"
+
+namespace glimmer {
+
+struct LightPoolBlock final : BlockData {
+    LightPoolBlock(const PoolSettings &settings_, VertexPool &&pool_) : settings(settings_), pool(std::move(pool_)) {}
+    PoolSettings settings;
+    VertexPool pool;
+};
+
+class LightPool {
+  public:
+    LightPool(const Scene &scene, const GlassStack &around_camera);
+
+    std::unique_ptr<const PassData> prepare_pass(uint64_t seed, uint64_t sample, RayCounter &rays) const;
+    std::unique_ptr<const BlockData> prepare_block(const PassData &pass, const Rectangle &block,
+                                                   RayCounter &rays) const;
+
+  private:
+    std::vector<Vec3f> seen_points(const Rectangle &pixels, uint32_t count, Sampler &sampler, RayCounter &rays) const;
+    void set_bounds();
+
+    const Scene &scene_;
+    GlassStack around_camera_;
+    std::vector<GlassStack> around_lights_;
+    PoolSettings settings_;
+};
+
+/// Null where plain paths take over: no fog that scatters, fog that scatters unevenly (the peak of a phase function
+/// unbounds the connections), a camera within glass, limits on the depth, nothing finite that shines.
+std::unique_ptr<const LightPool> plan_light_pool(const Scene &scene, const DepthLimits &limits,
+                                                 const GlassStack &around_camera);
+
+} // namespace glimmer

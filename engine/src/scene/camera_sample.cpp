@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/camera_sample.h"
+
+namespace glimmer {
+
+namespace {
+
+float filter_offset(const FilmSettings &film, float u) {
+    if (film.filter_inverse.empty())
+        return u - 0.5f;
+    const float x = u * float(film.filter_inverse.size() - 1);
+    const size_t i = std::min(size_t(x), film.filter_inverse.size() - 2);
+    const float f = x - float(i);
+    return (film.filter_inverse[i] * (1 - f) + film.filter_inverse[i + 1] * f) * film.filter_width;
+}
+
+} // namespace
+
+CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens) {
+    const FilmSettings &film = scene.film;
+    const Vec2f at{(float(pixel_x) + 0.5f + filter_offset(film, u_pixel.x)) / float(film.width),
+                   (float(pixel_y) + 0.5f + filter_offset(film, u_pixel.y)) / float(film.height)};
+    return scene.camera.generate(at, scene.camera.lens_radius > 0 ? sample_uniform_disk(u_lens) : Vec2f{});
+}
+
+} // namespace glimmer

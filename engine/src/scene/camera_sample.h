@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a pixel and random numbers to a camera ray, by way of the filter and the lens.
+#pragma once
+
+#include "sampling/warp.h"
+#include "scene/scene.h"
+
+namespace glimmer {
+
+/// pixel: of the whole picture. By filter importance sampling: every sample counts the same and none leaves its pixel's
+/// sum.
+CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens);
+
+} // namespace glimmer
