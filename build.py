@@ -54,6 +54,29 @@ def run(command: Sequence[str | Path], cwd: Path = ROOT, env: dict[str, str] | N
         raise BuildError(f"exit status {status} from: {shlex.join(words)}")
 
 
+def run_blender(command: Sequence[str | Path], env: dict[str, str]) -> int:
+    """Runs Blender and returns its exit status. Passes its output on, progress lines ("Fra:1 Mem:...") in place on a
+    terminal, else one in 10 s.
+    """
+    progress = re.compile(r"Fra:\d+ ")
+    terminal, shown, pending = sys.stdout.isatty(), 0.0, False
+    with subprocess.Popen([str(w) for w in command], cwd=ROOT, env=env, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        for line in map(str.rstrip, process.stdout):
+            if not progress.match(line):
+                say(("\n" if pending else "") + line)
+                pending = False
+            elif terminal:
+                width = shutil.get_terminal_size().columns - 1
+                sys.stdout.write("\r" + line[:width].ljust(width))
+                sys.stdout.flush()
+                pending = True
+            elif time.monotonic() - shown > 10:
+                say(line)
+                shown = time.monotonic()
+    return process.returncode
+
+
 # ---- What the machine needs --------------------------------------------------------------------------------------
 
 
@@ -245,10 +268,13 @@ def render(blender: str | None, options: RenderOptions) -> None:
         if value is not None:
             words += [f"--{name}", str(value)]
     started = time.monotonic()
-    run([*host_command(executable, RENDER_SCRIPT), *words], env=host_environment(BUILD / "profile", executable))
-    for picture in pictures:
-        if not picture.exists():
-            raise BuildError(f"Blender ended without an error and without {picture}")
+    status = run_blender(
+        [*host_command(executable, RENDER_SCRIPT), *words], host_environment(BUILD / "profile", executable)
+    )
+    if status != 0 or not all(picture.exists() for picture in pictures):
+        raise BuildError(
+            f"no picture of {options.scene}; Blender's exit status is {status} and its reason stands above"
+        )
     say(f"Rendered in {time.monotonic() - started:.1f} s:")
     for picture in pictures:
         say(f"  {picture}")

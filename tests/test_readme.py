@@ -41,7 +41,7 @@ def test_the_first_screen_has_exactly_the_two_commands() -> None:
 
 
 def test_every_command_is_of_a_kind_that_a_test_here_tries() -> None:
-    assert {words[0] for words in commands()} == {"python3", "build/bin/glimmer", "blender"}
+    assert {words[0] for words in commands()} == {"python3", "build/bin/glimmer", "blender", "cc"}
 
 
 @pytest.mark.parametrize("words", commands_of("python3"), ids=shlex.join)
@@ -53,12 +53,33 @@ def test_build_py_takes_the_arguments(words: list[str]) -> None:
 @pytest.mark.parametrize("words", commands_of("build/bin/glimmer"), ids=shlex.join)
 def test_the_command_line_does_what_it_says(words: list[str], glimmer_command: Path, tmp_path: Path) -> None:
     arguments = [str(ROOT / word) if word.startswith("engine/") else word for word in words[1:]]
+    if "--spp" in words:
+        arguments[arguments.index("--spp") + 1] = "4"
     command = [str(glimmer_command), *arguments]
     result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=280)
     assert result.returncode == 0, result.stderr
     for option in ("-o", "--report", "--curve"):
         if option in words:
             assert (tmp_path / words[words.index(option) + 1]).stat().st_size > 0
+
+
+@pytest.mark.parametrize("words", commands_of("cc"), ids=shlex.join)
+def test_the_c_example_compiles_and_runs(words: list[str], library_dir: Path, tmp_path: Path) -> None:
+    assert library_dir.is_dir()
+    (tmp_path / "engine").symlink_to(ROOT / "engine")
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build" / "lib").symlink_to(library_dir)
+    result = subprocess.run(
+        shlex.join(words).replace("'&&'", "&&"),
+        shell=True,
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert result.returncode == 0, result.stderr
+    assert (tmp_path / "render.pfm").stat().st_size > 0
 
 
 @pytest.mark.parametrize("words", commands_of("blender"), ids=shlex.join)
