@@ -108,7 +108,8 @@ def _cells(parameters: FieldParameters) -> tuple[Integers, Integers]:
 def _centres(q: Integers, r: Integers, parameters: FieldParameters) -> tuple[Floats, Floats]:
     """The corners of a plate stand at 0, 60, ... degrees, so its neighbours lie at 30, 90, ..."""
     step = spacing(parameters)
-    return step * np.sqrt(0.75) * q, step * (0.5 * q + r)
+    u, v = q.astype(np.float64), r.astype(np.float64)
+    return step * np.sqrt(0.75) * u, step * (0.5 * u + v)
 
 
 def _lean(direction: Floats, angle: Floats) -> Floats:

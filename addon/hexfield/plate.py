@@ -52,7 +52,7 @@ def make_plate(parameters: FieldParameters, prototype: int) -> PlateMesh:
     # Rims from the upright side (0) to the top (segments); on the top one all samples of a corner are one vertex.
     samples = len(base)
     top_samples = np.unique(corner_of)
-    rims = [np.arange(samples) + j * samples for j in range(segments)]
+    rims: list[Integers] = [np.arange(samples) + j * samples for j in range(segments)]
     rims.append(segments * samples + np.searchsorted(top_samples, corner_of))
     vertices = []
     for j in range(segments):
