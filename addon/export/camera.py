@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from math import atan, degrees
+from math import atan, degrees, hypot
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,15 +30,26 @@ def projection(
 
 
 def rigid(matrix: Floats) -> Floats:
-    """The nearest matrix of rotation and translation: a camera's scale says nothing about what it sees."""
+    """The rotation and translation of a matrix: looks along the same -z, with the same x axis to its right but for any
+    shear. A camera's scale says nothing about what it sees.
+
+    By hand, since LAPACK's last bits depend on where arrays lie in memory, and a picture must not.
+    """
+    x_axis, z_axis = ([float(v) for v in matrix[:3, column]] for column in (0, 2))
+    z_axis = _normalized(z_axis)
+    along = sum(a * b for a, b in zip(x_axis, z_axis, strict=True))
+    x_axis = _normalized([a - along * b for a, b in zip(x_axis, z_axis, strict=True)])
+    (zx, zy, zz), (xx, xy, xz) = z_axis, x_axis
+    y_axis = [zy * xz - zz * xy, zz * xx - zx * xz, zx * xy - zy * xx]
     result = np.eye(4)
-    u, _, vt = np.linalg.svd(matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0))
-    rotation = u @ vt
-    if np.linalg.det(rotation) < 0:
-        rotation = rotation * [-1.0, 1.0, 1.0]
-    result[:3, :3] = rotation
+    result[:3, :3] = np.transpose([x_axis, y_axis, z_axis])
     result[:3, 3] = matrix[:3, 3]
     return result
+
+
+def _normalized(vector: list[float]) -> list[float]:
+    length = hypot(*vector)
+    return [v / length for v in vector]
 
 
 def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int], notices: Notices) -> Camera:
@@ -51,7 +62,7 @@ def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int],
         kind = {"ORTHO": "orthographic", "PANO": "panoramic"}.get(data.type, data.type.lower())
         raise GlimmerError(f"Camera '{camera_object.name}' is {kind}, which is not supported yet; allowed: perspective")
     to_world: Floats = np.array(camera_object.matrix_world, np.float64)
-    if not np.isfinite(to_world).all() or not np.linalg.norm(to_world[:3, :3], axis=0).all():
+    if not np.isfinite(to_world).all() or np.linalg.matrix_rank(to_world[:3, :3]) < 3:
         raise GlimmerError(f"Camera '{camera_object.name}' has a scale of 0 or a matrix that is not finite")
     to_world = rigid(to_world)
     sensor = (data.sensor_width, data.sensor_height)
@@ -78,6 +89,6 @@ def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notice
     distance = dof.focus_distance
     if dof.focus_object is not None:
         target = np.array(dof.focus_object.matrix_world.translation, np.float64)
-        distance = abs(float(np.dot(target - to_world[:3, 3], to_world[:3, 2])))
+        distance = abs(float(((target - to_world[:3, 3]) * to_world[:3, 2]).sum()))
     # The lens is in millimetres whatever the scene's unit, and the f-number divides its diameter.
     return 0.5e-3 * data.lens / dof.aperture_fstop, max(distance, 1e-5)

@@ -62,12 +62,65 @@ def export_mesh(mesh: bpy.types.Mesh, name: str, slot_count: int = 1) -> Mesh | 
         raise GlimmerError(f"Mesh '{name}' cannot be read: vertex {bad} has a coordinate that is not a finite number")
     if corner_vertices.min() < 0 or corner_vertices.max() >= len(vertices):
         raise GlimmerError(f"Mesh '{name}' cannot be read: it uses vertices that it does not have; validate() mends it")
-    normals = _corner_normals(mesh, corners)
     slots = read(triangles, "material_index", np.int32).clip(0, slot_count - 1)
-    if normals is None:
-        return _finish(name, vertices, corner_vertices[corners], None, slots)
-    source, new_vertex = split_by_normal(corner_vertices, normals)
-    return _finish(name, vertices[corner_vertices[source]], new_vertex[corners], normals[source], slots)
+    slots_or_none = slots.astype(np.uint16) if slots.any() else None
+    if _is_smooth_throughout(mesh):
+        normals = smooth_normals(vertices, corner_vertices, *_faces(mesh))
+        return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), normals, slots_or_none)
+    corner_normals = _corner_normals(mesh, corners)
+    if corner_normals is None:
+        return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), None, slots_or_none)
+    source, new_vertex = split_by_normal(corner_vertices, corner_normals)
+    triangle_vertices = new_vertex[corners].astype(np.uint32)
+    return Mesh(name, vertices[corner_vertices[source]], triangle_vertices, corner_normals[source], slots_or_none)
+
+
+def _is_smooth_throughout(mesh: bpy.types.Mesh) -> bool:
+    """Whether every vertex has one normal, that of all its faces."""
+    if mesh.has_custom_normals or getattr(mesh, "use_auto_smooth", False):
+        return False
+    if not read(mesh.polygons, "use_smooth", np.bool_).all():
+        return False
+    # Before 4.1 edges are sharp under auto smooth alone.
+    return hasattr(mesh, "use_auto_smooth") or not read(mesh.edges, "use_edge_sharp", np.bool_).any()
+
+
+def _faces(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
+    polygons = mesh.polygons
+    starts, totals = read(polygons, "loop_start", np.int32), read(polygons, "loop_total", np.int32)
+    return starts, totals, read(polygons, "normal", np.float32, 3)
+
+
+def smooth_normals(
+    vertices: Floats,
+    corner_vertices: NDArray[np.integer],
+    starts: NDArray[np.integer],
+    totals: NDArray[np.integer],
+    face_normals: Floats,
+) -> Floats:
+    """Blender's vertex normals, (n, 3) float32: those of the faces, weighed by their angles at the vertex.
+
+    starts, totals: first corner and count of corners of each face. Blender adds them up in parallel and in any order,
+    so that the last bits of its own differ from one time to the next, and with them those of the picture.
+    """
+    order = np.argsort(starts, kind="stable")  # faces lie in the order of their corners, one after another
+    starts, totals, face_normals = starts[order], totals[order], face_normals[order]
+    corner = np.arange(len(corner_vertices))
+    face_of_corner = np.repeat(np.arange(len(starts)), totals)
+    first, last = starts[face_of_corner], (starts + totals - 1)[face_of_corner]
+    points = np.asarray(vertices, np.float64)[corner_vertices]
+    ahead = _unit(points[np.where(corner == last, first, corner + 1)] - points)
+    behind = _unit(points[np.where(corner == first, last, corner - 1)] - points)
+    angles = np.arccos(np.clip((ahead * behind).sum(axis=1), -1.0, 1.0))
+    weighed = np.asarray(face_normals, np.float64)[face_of_corner] * angles[:, None]
+    sums = [np.bincount(corner_vertices, weighed[:, axis], len(vertices)) for axis in range(3)]
+    return _unit(np.stack(sums, axis=1)).astype(np.float32)
+
+
+def _unit(vectors: Floats) -> Floats:
+    """(n, 3) of length 1; a vector of length 0 stays."""
+    lengths = np.sqrt((vectors**2).sum(axis=1, keepdims=True))
+    return vectors / np.where(lengths > 0.0, lengths, 1.0)
 
 
 def _corner_normals(mesh: bpy.types.Mesh, corners: NDArray[np.int32]) -> Floats | None:
@@ -83,33 +136,39 @@ def _corner_normals(mesh: bpy.types.Mesh, corners: NDArray[np.int32]) -> Floats 
     return normals
 
 
-def _finish(
-    name: str, vertices: Floats, triangles: NDArray[Any], normals: Floats | None, slots: NDArray[np.int32]
-) -> Mesh:
-    return Mesh(
-        name=name,
-        vertices=vertices,
-        triangles=np.ascontiguousarray(triangles, np.uint32),
-        normals=normals,
-        slots=slots.astype(np.uint16) if slots.any() else None,
-    )
-
-
 def fit_sphere(vertices: Floats, name: str) -> tuple[Floats, float]:
-    """Centre (3,) and radius of a mesh that approximates a sphere: its vertices lie on it.
+    """Centre (3,) and radius of a mesh that approximates a sphere: its vertices lie on it, wherever its origin is.
 
-    Least squares of |v|^2 = 2 c.v + (r^2 - |c|^2), exact for vertices of a sphere, wherever the mesh's origin is.
+    Least squares of |v|^2 = 2 c.v + (r^2 - |c|^2), exact for vertices of a sphere. By the normal equations and by hand,
+    since LAPACK's last bits depend on where arrays lie in memory, and a picture must not.
     """
     points = np.asarray(vertices, np.float64)
     middle = points.mean(axis=0)
     offsets = points - middle
-    system = np.column_stack((2.0 * offsets, np.ones(len(offsets))))
-    solution, _, rank, _ = np.linalg.lstsq(system, (offsets**2).sum(axis=1), rcond=None)
-    center = solution[:3]
-    distances = np.linalg.norm(offsets - center, axis=1)
+    # Of offsets whose mean is 0 the constant term decouples: (2 sum o o^T) c = sum o |o|^2.
+    squares = (offsets**2).sum(axis=1)
+    moments = [[float((offsets[:, i] * offsets[:, j]).sum()) for j in range(3)] for i in range(3)]
+    sums = [0.5 * float((offsets[:, i] * squares).sum()) for i in range(3)]
+    solution = _solve(moments, sums)
+    center = np.array(solution or [0.0, 0.0, 0.0])
+    distances = np.sqrt(((offsets - center) ** 2).sum(axis=1))
     radius = float(distances.mean())
-    if rank < 4 or not radius > 0.0 or float(np.abs(distances - radius).max()) > 0.01 * radius:
+    if solution is None or not radius > 0.0 or float(np.abs(distances - radius).max()) > 0.01 * radius:
         raise GlimmerError(
             f"Object '{name}' is marked as an analytic sphere, but its mesh is none: its vertices must lie on a sphere"
         )
     return center + middle, radius
+
+
+def _solve(matrix: list[list[float]], right: list[float]) -> list[float] | None:
+    """A 3x3 system by Cramer's rule; None where it is singular for float64."""
+    (a, b, c), (d, e, f), (g, h, i) = matrix
+    determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    if abs(determinant) <= 1e-9 * max(abs(value) for row in matrix for value in row) ** 3:
+        return None
+    x, y, z = right
+    return [
+        (x * (e * i - f * h) - b * (y * i - f * z) + c * (y * h - e * z)) / determinant,
+        (a * (y * i - f * z) - x * (d * i - f * g) + c * (d * z - y * g)) / determinant,
+        (a * (e * z - y * h) - b * (d * z - y * g) + x * (d * h - e * g)) / determinant,
+    ]

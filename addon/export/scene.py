@@ -152,7 +152,7 @@ class _Collector:
         self.spheres.append(
             Spheres(
                 name=item.name,
-                centers=matrices[:, :3, :3] @ center + matrices[:, :3, 3],
+                centers=(matrices[:, :3, :3] * center).sum(axis=2) + matrices[:, :3, 3],
                 radii=radius * scales.mean(axis=1),
                 material=self._material(material, item.name),
                 object_index=item.pass_index,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from addon.export.mesh import fit_sphere, split_by_normal
+from addon.export.mesh import fit_sphere, smooth_normals, split_by_normal
 from addon.scene.problems import GlimmerError
 
 
@@ -58,3 +58,21 @@ def test_half_a_sphere_is_one_too() -> None:
 def test_what_is_no_sphere_is_named(points: NDArray[np.float64]) -> None:
     with pytest.raises(GlimmerError, match="'Egg' is marked as an analytic sphere, but its mesh is none"):
         fit_sphere(points, "Egg")
+
+
+def test_smooth_normals_are_weighed_by_the_angle() -> None:
+    """The corner of a cube whose one side is cut into two triangles: its normal is the diagonal all the same."""
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, 0, 1], [0, 1, 1]], np.float32)
+    corner_vertices = np.array([0, 2, 4, 0, 4, 1, 0, 1, 5, 3, 0, 3, 6, 2])
+    starts, totals = np.array([0, 3, 6, 10]), np.array([3, 3, 4, 4])
+    faces = np.array([[0, 0, -1], [0, 0, -1], [0, -1, 0], [-1, 0, 0]], np.float32)
+    normals = smooth_normals(vertices, corner_vertices, starts, totals, faces)
+    np.testing.assert_allclose(normals[0], np.full(3, -(3**-0.5)), atol=1e-7)
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-6)
+
+
+def test_a_vertex_without_faces_has_no_normal() -> None:
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]], np.float32)
+    up = np.array([[0, 0, 1]], np.float32)
+    normals = smooth_normals(vertices, np.array([0, 1, 2]), np.array([0]), np.array([3]), up)
+    np.testing.assert_array_equal(normals, [[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 0]])

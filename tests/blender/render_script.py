@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Renders everything that test_render.py looks at, in one process: render_script.py FOLDER."""
+
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import inside
+
+OUT = Path(inside.words()[0])
+glimmer = inside.enable()
+from glimmer import reports  # noqa: E402 - the add-on's name inside Blender
+from glimmer.film import passes  # noqa: E402
+from glimmer.native import render as native_render  # noqa: E402
+
+facts: dict[str, Any] = {}
+
+
+def new_scene() -> Any:
+    scene = inside.empty_scene((0.1, 0.1, 0.15))
+    inside.plane(material=inside.material("ShaderNodeBsdfDiffuse", Color=(0.5, 0.4, 0.3, 1.0)))
+    ball = inside.ball("Ball", inside.material("ShaderNodeBsdfDiffuse", Color=(0.1, 0.2, 0.8, 1.0)))
+    ball.pass_index = 5
+    ball.active_material.pass_index = 9
+    moon = inside.ball("Moon", inside.material("ShaderNodeEmission", Strength=4.0), (2.0, 0.0, 1.5), 32)
+    moon.scale = (0.4, 0.4, 0.4)
+    moon.glimmer.is_sphere = True
+    inside.lamp("POINT", (-2.0, -2.0, 3.0), energy=100.0, shadow_soft_size=0.2)
+    return scene
+
+
+def stills() -> None:
+    scene = new_scene()
+    inside.use_format("OPEN_EXR")
+    inside.render(OUT / "full.exr")
+    facts["report"] = dict(reports.last())
+    scene.glimmer.tile_size = 16
+    inside.render(OUT / "small_tiles.exr")
+    render = scene.render
+    render.use_border, render.use_crop_to_border = True, True
+    render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.21, 0.77, 0.13, 0.64
+    inside.render(OUT / "border.exr")
+    render.use_crop_to_border = False
+    inside.render(OUT / "border_in_full.exr")
+
+
+def scene_file() -> None:
+    new_scene()
+    bpy.ops.glimmer.export_scene(filepath=str(OUT / "scene.json"))
+    facts["engine_after_export"] = bpy.context.scene.render.engine
+
+
+def layers_and_passes() -> None:
+    scene = new_scene()
+    inside.use_format("OPEN_EXR_MULTILAYER")
+    first = bpy.context.view_layer
+    for item in passes.OPTIONAL:
+        setattr(first if item.builtin else first.glimmer, item.switch, True)
+    without = scene.view_layers.new("Without Ball")
+    hidden = bpy.data.collections.new("Hidden")
+    scene.collection.children.link(hidden)
+    ball = bpy.data.objects["Ball"]
+    scene.collection.objects.unlink(ball)
+    hidden.objects.link(ball)
+    without.layer_collection.children["Hidden"].exclude = True
+    inside.render(OUT / "layers.exr")
+    compositor(scene)
+    scene.view_layers.remove(without)
+    for item in passes.OPTIONAL:
+        setattr(first if item.builtin else first.glimmer, item.switch, False)
+
+
+def compositor(scene: Any) -> None:
+    """The picture is the albedo pass, by way of the compositor."""
+    if hasattr(scene, "compositing_node_group"):  # 5.0
+        tree = scene.compositing_node_group = bpy.data.node_groups.new("Compositor", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        output = tree.nodes.new("NodeGroupOutput")
+    else:
+        scene.use_nodes = True
+        tree = scene.node_tree
+        tree.nodes.clear()
+        output = tree.nodes.new("CompositorNodeComposite")
+    layers = tree.nodes.new("CompositorNodeRLayers")
+    facts["sockets"] = [socket.name for socket in layers.outputs if socket.enabled]
+    tree.links.new(layers.outputs["Albedo"], output.inputs[0])
+    inside.use_format("OPEN_EXR")
+    inside.render(OUT / "composited.exr")
+    if hasattr(scene, "compositing_node_group"):
+        scene.compositing_node_group = None
+    else:
+        scene.use_nodes = False
+
+
+def animation() -> None:
+    scene = new_scene()
+    inside.use_format("OPEN_EXR")
+    scene.frame_start, scene.frame_end = 1, 3
+    moon = bpy.data.objects["Moon"]
+    moon.keyframe_insert("location", frame=2)
+    moon.location.z += 1.0
+    moon.keyframe_insert("location", frame=3)
+    inside.render(OUT / "fixed_", animation=True)
+    facts["meshes_kept"] = sum(len(cache) for cache in native_render._meshes.values())
+    scene.glimmer.use_seed_per_frame = True
+    inside.render(OUT / "per_frame_", animation=True)
+    scene.glimmer.use_seed_per_frame = False
+
+
+def hexagon_field() -> None:
+    inside.empty_scene((0.5, 0.5, 0.5))
+    bpy.ops.glimmer.add_hexagon_field()
+    field = bpy.context.object
+    field.glimmer_field.rings = 82  # 3 n (n + 1) + 1 = 20 419 plates
+    bpy.context.view_layer.update()
+    start = time.perf_counter()
+    inside.render(OUT / "field.exr")
+    facts["field_wall_seconds"] = time.perf_counter() - start
+    facts["field_report"] = dict(reports.last())
+
+
+stills()
+scene_file()
+layers_and_passes()
+animation()
+hexagon_field()
+(OUT / "facts.json").write_text(json.dumps(facts))

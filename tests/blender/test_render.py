@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""F12 in real Blenders: render_script.py renders in one process a host, and the tests look at its files."""
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import OpenImageIO
+import pytest
+from hosts import Host
+from numpy.typing import NDArray
+
+from addon.film.passes import COMBINED, OPTIONAL
+
+WIDTH, HEIGHT = 60, 40
+Pixels = NDArray[np.float32]
+
+
+@pytest.fixture(scope="module")
+def out(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("render")
+    host.run_script(Path(__file__).with_name("render_script.py"), str(folder), timeout=280)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def facts(out: Path) -> dict[str, Any]:
+    result: dict[str, Any] = json.loads((out / "facts.json").read_text())
+    return result
+
+
+def channels(path: Path) -> dict[str, Pixels]:
+    """Every channel by its name, top row first."""
+    image = OpenImageIO.ImageInput.open(str(path))
+    assert image is not None, OpenImageIO.geterror()
+    result = {}
+    part = 0
+    while image.seek_subimage(part, 0):
+        names = image.spec().channelnames
+        pixels = np.asarray(image.read_image(part, 0, 0, len(names), OpenImageIO.FLOAT), np.float32)
+        result.update({name: pixels[..., i] for i, name in enumerate(names)})
+        part += 1
+    image.close()
+    return result
+
+
+def picture(path: Path) -> Pixels:
+    found = channels(path)
+    return np.stack([found[name] for name in "RGB"], axis=2)
+
+
+def layer_pass(found: dict[str, Pixels], layer: str, name: str, parts: str) -> Pixels:
+    return np.stack([found[f"{layer}.{name}.{part}"] for part in parts], axis=2)
+
+
+def test_a_picture_comes_out(out: Path) -> None:
+    pixels = picture(out / "full.exr")
+    assert pixels.shape == (HEIGHT, WIDTH, 3)
+    assert np.isfinite(pixels).all()
+    assert pixels.min() > 0.0  # the world is grey, and nothing here is black
+    # The moon stands to the right, and shows its own radiance.
+    assert pixels.max() == pytest.approx(4.0)
+    assert np.argmax(pixels.sum(axis=(0, 2))) > WIDTH / 2
+
+
+def test_tiles_change_no_pixel(out: Path) -> None:
+    np.testing.assert_array_equal(picture(out / "small_tiles.exr"), picture(out / "full.exr"))
+
+
+def test_a_border_is_a_part_of_the_picture(out: Path) -> None:
+    full = picture(out / "full.exr")
+    x0, x1 = int(0.21 * WIDTH), int(0.77 * WIDTH)
+    y0, y1 = HEIGHT - int(0.64 * HEIGHT), HEIGHT - int(0.13 * HEIGHT)
+    np.testing.assert_array_equal(picture(out / "border.exr"), full[y0:y1, x0:x1])
+    framed = np.zeros_like(full)
+    framed[y0:y1, x0:x1] = full[y0:y1, x0:x1]
+    np.testing.assert_array_equal(picture(out / "border_in_full.exr"), framed)
+
+
+def test_the_command_line_renders_the_exported_scene_alike(out: Path, glimmer_command: Path) -> None:
+    result_file = out / "command.exr"
+    words = [str(out / "scene.json"), "-o", str(result_file), "--spp", "8", "--seed", "0", "--quiet"]
+    result = subprocess.run([str(glimmer_command), *words], capture_output=True, text=True, check=False, timeout=60)
+    assert result.returncode == 0, result.stderr
+    np.testing.assert_array_equal(picture(result_file), picture(out / "full.exr"))
+
+
+def test_export_leaves_the_scene_as_it_was(facts: dict[str, Any]) -> None:
+    assert facts["engine_after_export"] == "GLIMMER"
+
+
+def test_every_pass_is_in_the_multilayer_file(out: Path) -> None:
+    found = channels(out / "layers.exr")
+    for item in (COMBINED, *OPTIONAL):
+        for part in item.channels:
+            assert f"ViewLayer.{item.blender_name}.{part}" in found
+
+
+def test_passes_hold_what_they_say(out: Path) -> None:
+    found = channels(out / "layers.exr")
+    alone = picture(out / "full.exr")
+    combined = layer_pass(found, "ViewLayer", "Combined", "RGBA")
+    np.testing.assert_array_equal(combined[..., :3], alone)
+    assert (combined[..., 3] == 1.0).all()
+    samples = layer_pass(found, "ViewLayer", "Sample Count", "X")
+    assert (samples == 8.0).all()
+    objects, materials = (layer_pass(found, "ViewLayer", name, "X")[..., 0] for name in ("IndexOB", "IndexMA"))
+    assert set(np.unique(objects)) == {0.0, 5.0}
+    assert set(np.unique(materials)) == {0.0, 9.0}
+    np.testing.assert_array_equal(objects == 5.0, materials == 9.0)
+    normal = layer_pass(found, "ViewLayer", "Normal", "XYZ")
+    depth = layer_pass(found, "ViewLayer", "Depth", "Z")[..., 0]
+    floor = np.abs(normal - [0.0, 0.0, 1.0]).max(axis=2) < 1e-5
+    assert floor.mean() > 0.3
+    assert 2.0 < depth[floor].min() < depth[floor].max() < 100.0
+    # The parts of the light make up the picture.
+    parts = sum(layer_pass(found, "ViewLayer", name, "RGB") for name in ("Emit", "Direct", "Indirect", "Fog"))
+    np.testing.assert_allclose(parts, combined[..., :3], rtol=2e-5, atol=1e-6)
+    error = layer_pass(found, "ViewLayer", "Standard Error", "RGB")
+    assert np.isfinite(error).all() and error.min() >= 0.0 and error.max() > 0.0
+
+
+def test_a_view_layer_shows_its_own_collections(out: Path) -> None:
+    found = channels(out / "layers.exr")
+    other = layer_pass(found, "Without Ball", "Combined", "RGBA")[..., :3]
+    assert np.isfinite(other).all() and other.min() > 0.0
+    assert np.abs(other - picture(out / "full.exr")).max() > 0.05
+
+
+def test_passes_reach_the_compositor(out: Path, facts: dict[str, Any]) -> None:
+    assert {item.blender_name for item in OPTIONAL} <= set(facts["sockets"])
+    albedo = layer_pass(channels(out / "layers.exr"), "ViewLayer", "Albedo", "RGB")
+    np.testing.assert_array_equal(picture(out / "composited.exr"), albedo)
+
+
+def test_an_animation_moves_and_keeps_its_noise(out: Path) -> None:
+    first, second, third = (picture(out / f"fixed_{frame:04d}.exr") for frame in (1, 2, 3))
+    np.testing.assert_array_equal(first, picture(out / "full.exr"))
+    np.testing.assert_array_equal(second, first)
+    assert np.abs(third - second).max() > 0.05
+
+
+def test_seeds_per_frame_give_each_frame_noise_of_its_own(out: Path) -> None:
+    first, second = (picture(out / f"per_frame_{frame:04d}.exr") for frame in (1, 2))
+    assert not np.array_equal(first, second)
+
+
+def test_frames_share_their_meshes(facts: dict[str, Any]) -> None:
+    assert facts["meshes_kept"] == 2  # the floor and the ball; the moon is no mesh
+
+
+def test_twenty_thousand_plates_are_read_well_within_a_second(facts: dict[str, Any]) -> None:
+    export = facts["field_report"]["export"]
+    assert export["seconds"] < 0.5
+    # One matrix a plate at most: bulk instances, no copies of meshes.
+    assert 20_419 * 12 * 4 < export["bytes"] < 20_419 * 16 * 8 * 1.2
+
+
+def test_the_report_is_whole(facts: dict[str, Any]) -> None:
+    report = facts["report"]
+    assert report["spp"] == 8
+    assert report["biased_by"] == []
+    assert report["export"]["seconds"] >= 0.0
+    assert report["export"]["notices"] == []
