@@ -303,7 +303,7 @@ def lint() -> None:
     checks: tuple[Sequence[str | Path], ...] = (
         [python, "-m", "ruff", "check", ROOT],
         [python, "-m", "ruff", "format", "--check", ROOT],
-        [python, "-m", "mypy", "build.py", "addon", "blend_scenes", "tests", "tools"],
+        [python, "-m", "mypy", "build.py", "addon", "blend_scenes", "engine", "tests", "tools"],
         ["clang-format", "--dry-run", "-Werror", *sources],
     )
     failures = []

@@ -9,6 +9,7 @@ import math
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 FOLDER = Path(__file__).resolve().parent
 SPACING = 1.78  # of the plates' middles, whose corners are 1 from theirs: a gap of 0.05
@@ -25,12 +26,12 @@ MOONS = {
 }
 
 
-def hill(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def hill(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
     """Height of the land, in plate radii."""
     return 0.9 * np.sin(0.21 * x + 0.4) * np.sin(0.17 * y) + 0.3 * np.sin(0.47 * x - 0.38 * y)
 
 
-def plates(seed: int = 4) -> np.ndarray:
+def plates(seed: int = 4) -> NDArray[np.float32]:
     """(n, 3, 4) float32: turned, tilted with the land and a little by chance, where the camera sees them."""
     rng = np.random.default_rng(seed)
     column, row = np.meshgrid(np.arange(-30, 31), np.arange(-2, 40))

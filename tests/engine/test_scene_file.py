@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tests.engine import scenes
 from tests.engine.scenes import QUAD, Scene, changed, every_key, removed, run_glimmer, write_scene
@@ -427,7 +428,7 @@ def test_npy_last_row(tmp_path: Path) -> None:
     assert message.startswith("objects[0].instances: the last row of matrix 2 is not 0 0 0 1")
 
 
-def sphere_pixels(folder: Path, centers: np.ndarray, name: str) -> np.ndarray:
+def sphere_pixels(folder: Path, centers: NDArray[Any], name: str) -> NDArray[Any]:
     """What spheres at these centres look like: tells whether they were read as they stand."""
     np.save(folder / f"{name}.npy", centers)
     content = scenes.scene(
@@ -452,7 +453,7 @@ CENTERS = np.array([[-2, 0, 1], [1, 3, 0], [0.5, 0, -1.5], [2, -1, 2]], np.float
     ],
 )
 def test_npy_layouts_give_the_same_picture(
-    name: str, convert: Callable[[np.ndarray], np.ndarray], tmp_path: Path
+    name: str, convert: Callable[[NDArray[Any]], NDArray[Any]], tmp_path: Path
 ) -> None:
     reference = sphere_pixels(tmp_path, CENTERS, "reference")
     assert 0 < reference.mean() < 1
