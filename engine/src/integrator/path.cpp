@@ -445,7 +445,7 @@ class PathSample {
             state.origin.kind = DirectionOrigin::Kind::surface;
             state.origin.all_lights = all;
             state.origin.pdf = s->pdf;
-            state.origin.position = surface.position;
+            state.origin.position = state.ray.origin; // where lights were sampled from
             if (state.direct_view())
                 state.first = PathState::First::surface;
             ++state.order;
@@ -459,9 +459,12 @@ class PathSample {
             return;
         const bool camera = state.depth == 0;
         const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+        // On the viewer's side of the surface for certain: a point that rounding put beneath an emissive sphere would
+        // be lit by it from within, and one above its inner side not.
+        const Vec3f x = surface.origin_towards(geometric);
         for (uint32_t i = 0; i < choices(all); ++i) {
-            const LightChoice choice = choose(i, all, surface.position);
-            const auto light = sample_light(scene_.lights[choice.index], surface.position,
+            const LightChoice choice = choose(i, all, x);
+            const auto light = sample_light(scene_.lights[choice.index], x,
                                             camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
             if (!light || !(dot(light->direction, geometric) > 0))
                 continue;
@@ -471,7 +474,7 @@ class PathSample {
             Rgb value = eval(bsdf, wo, wi) * light->radiance * (1 / light->pdf / choice.probability);
             if (fog)
                 value *= fog->transmittance(light->distance);
-            if (is_black(value) || occluded(surface.origin_towards(light->direction), *light, surface.error))
+            if (is_black(value) || occluded(x, *light, surface.error))
                 continue;
             if (!light->delta)
                 value *= balance(choice.probability * light->pdf, pdf(bsdf, wo, wi));
