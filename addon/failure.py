@@ -51,8 +51,9 @@ def fail(engine: bpy.types.RenderEngine, message: str) -> None:
         _exit_now(message)
     _pending["failed"] = True
     _process["failed"] = bpy.app.background
-    engine.error_set(message)
     engine.report({"ERROR"}, f"Glimmer: {message}")
+    if not bpy.app.background:
+        engine.error_set(message)  # later versions report it too: where nobody reads the picture, once is enough
 
 
 def _exit_now(message: str) -> None:

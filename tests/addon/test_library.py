@@ -29,7 +29,7 @@ def test_every_function_of_the_header_that_is_bound_exists_there(repository: Pat
 def enumerators(header: str, name: str) -> dict[str, int]:
     body = re.search(rf"typedef enum {name} \{{(.*?)\}} {name};", header, re.DOTALL)
     assert body is not None
-    return {key: int(value) for key, value in re.findall(r"GLIMMER_(\w+) = (\d+)", body[1])}
+    return {key: int(value) for key, value in re.findall(r"GLIMMER_(\w+)\s*=\s*(\d+)", body[1])}
 
 
 @pytest.mark.parametrize(
