@@ -66,6 +66,7 @@ def every_key(folder: Path) -> Scene:
     np.save(folder / "plates4.npy", np.tile(np.eye(4), (2, 1, 1)))
     np.save(folder / "indices.npy", np.arange(5, dtype=np.uint32))
     np.save(folder / "many.npy", rng.uniform(-3, 3, (7, 3)))
+    np.save(folder / "more.npy", rng.uniform(-3, 3, (7, 3)))
     np.save(folder / "radii.npy", rng.uniform(0.1, 0.2, 7).astype(np.float32))
     np.save(folder / "vertices.npy", np.array(QUAD["vertices"], np.float64))
     np.save(folder / "triangles.npy", np.array(QUAD["triangles"], np.int32))
@@ -74,7 +75,7 @@ def every_key(folder: Path) -> Scene:
     np.save(folder / "slots.npy", np.array([0, 1], np.uint16))
     write_ply(folder / "hex.ply", QUAD["vertices"], [[0, 1, 2, 3]])
     (folder / "tetra.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
-    write_image(folder / "sky.exr", np.full((4, 8, 3), 0.25, np.float32))
+    write_image(folder / "sky.exr", np.linspace(0.1, 0.4, 96, dtype=np.float32).reshape(4, 8, 3))
     emission = [0.1, 0.2, 0.3]
     return {
         "glimmer": 1,
@@ -131,7 +132,7 @@ def every_key(folder: Path) -> Scene:
             },
         },
         "objects": [
-            {"mesh": "quad", "material": "plate", "to_world": IDENTITY, "index": 7},
+            {"mesh": "quad", "material": "plate", "to_world": [*IDENTITY[:2], [0, 0, 1, 0.6], IDENTITY[3]], "index": 7},
             {"mesh": "hex", "materials": ["plate", "gold"], "instances": "plates.npy", "indices": "indices.npy"},
             {"mesh": "files", "materials": ["wax", "old", "metal"], "instances": "plates4.npy"},
             {"mesh": "tetra", "material": "gone"},
@@ -139,8 +140,8 @@ def every_key(folder: Path) -> Scene:
         "spheres": [
             {"center": [-2, 3, 2], "radius": 0.5, "material": "moon", "index": 9},
             {"centers": "many.npy", "radius": 0.3, "material": "mirror"},
-            {"centers": "many.npy", "radii": "radii.npy", "material": "gold"},
-            {"centers": [[5, 5, 5], [6, 5, 5]], "radii": [0.1, 0.2], "material": "glass"},
+            {"centers": "more.npy", "radii": "radii.npy", "material": "gold"},
+            {"centers": [[1.5, -3, 1], [-1, -3, 1]], "radii": [0.5, 0.2], "material": "glass"},
         ],
         "lights": [
             {"type": "point", "position": [0, 0, 5], "intensity": 10, "radius": 0.1},
@@ -154,7 +155,7 @@ def every_key(folder: Path) -> Scene:
                 "radius": 0,
             },
             {"type": "sun", "direction": [0, 1, -1], "irradiance": 1, "angle": 0.5},
-            {"type": "area", "to_world": IDENTITY, "size": [1, 2], "shape": "ellipse", "radiance": 3},
+            {"type": "area", "to_world": copy.deepcopy(IDENTITY), "size": [1, 2], "shape": "ellipse", "radiance": 3},
         ],
         "environment": {"image": "sky.exr", "strength": 0.5, "to_world": IDENTITY},
         "medium": {"sigma_a": 0.0015, "sigma_s": [0.0135, 0.01, 0.02], "g": -0.2},
