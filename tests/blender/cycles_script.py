@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Renders small scenes by Cycles and Glimmer in turn, in one process: cycles_script.py FOLDER.
+
+Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3).
+"""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import inside
+
+OUT = Path(inside.words()[0])
+SEEDS, SAMPLES = 4, 32
+WIDTH, HEIGHT = 36, 24
+
+inside.enable()
+if not hasattr(bpy.types.Scene, "cycles"):
+    bpy.ops.preferences.addon_enable(module="cycles")
+
+OCHRE = (0.9, 0.6, 0.3, 1.0)
+
+
+def floor() -> None:
+    inside.plane(material=inside.material("ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1.0)))
+
+
+def under_lamps(material: Any) -> None:
+    """A faceted ball: Cycles bends shadows on smooth ones."""
+    inside.empty_scene((0.2, 0.2, 0.25))
+    floor()
+    inside.lamp("AREA", (-3.0, -2.0, 4.0), energy=200.0, shape="RECTANGLE", size=2.0, size_y=1.0)
+    ball = inside.ball("Ball", material, segments=16)
+    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
+
+
+def under_lamp(kind: str, **settings: Any) -> Any:
+    inside.empty_scene()
+    floor()
+    return inside.lamp(kind, (1.0, 1.0, 3.0), **settings)
+
+
+def area_ellipse() -> None:
+    under_lamp("AREA", energy=100.0, shape="ELLIPSE", size=2.0, size_y=0.5).scale = (2.0, 1.0, 1.0)
+
+
+def world() -> None:
+    inside.empty_scene((0.3, 0.4, 0.5))
+    floor()
+
+
+def world_image(rotation: tuple[float, float, float] = (0.3, 0.2, 1.0)) -> None:
+    scene = inside.empty_scene()
+    scene.camera.rotation_euler = (1.5, 0.0, 0.4)
+    image = bpy.data.images.new("Sky", 32, 16, float_buffer=True)
+    pixels = np.zeros((16, 32, 4), np.float32)
+    pixels[..., 0] = np.linspace(0.0, 1.0, 32)
+    pixels[..., 1] = np.linspace(0.0, 1.0, 16)[:, None]
+    pixels[8:12, 20:24, 2] = 3.0
+    pixels[..., 3] = 1.0
+    image.pixels.foreach_set(pixels.ravel())
+    tree = scene.world.node_tree
+    names = ("ShaderNodeTexCoord", "ShaderNodeMapping", "ShaderNodeTexEnvironment")
+    coordinates, mapping, texture = (tree.nodes.new(name) for name in names)
+    texture.image = image
+    mapping.inputs["Rotation"].default_value = rotation
+    tree.links.new(coordinates.outputs["Generated"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    floor()
+
+
+def emissive_mesh() -> None:
+    inside.empty_scene()
+    floor()
+    inside.ball("Lamp", inside.material("ShaderNodeEmission", Color=OCHRE, Strength=5.0), (0.0, 0.0, 2.0), 16)
+
+
+def mixed() -> None:
+    under_lamps(inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
+    tree = bpy.data.objects["Ball"].active_material.node_tree
+    glossy, mix = tree.nodes.new("ShaderNodeBsdfGlossy"), tree.nodes.new("ShaderNodeMixShader")
+    glossy.distribution = "GGX"
+    glossy.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    glossy.inputs["Roughness"].default_value = 0.5
+    mix.inputs[0].default_value = 0.3
+    tree.links.new(tree.nodes["Diffuse BSDF"].outputs[0], mix.inputs[1])
+    tree.links.new(glossy.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+
+
+def fog(kind: str, **inputs: Any) -> None:
+    inside.empty_scene()
+    floor()
+    inside.ball("Lamp", inside.material("ShaderNodeEmission", Strength=5.0), (0.0, 0.0, 2.0), 16)
+    tree = bpy.context.scene.world.node_tree
+    volume = tree.nodes.new(kind)
+    for name, value in inputs.items():
+        volume.inputs[name].default_value = value
+    tree.links.new(volume.outputs[0], tree.nodes["World Output"].inputs["Volume"])
+
+
+def shader(kind: str, distribution: str | None = None, **inputs: Any) -> Callable[[], None]:
+    return lambda: under_lamps(inside.material(kind, distribution, **inputs))
+
+
+WHITE = (1.0, 1.0, 1.0, 1.0)
+SCENES: dict[str, Callable[[], Any]] = {
+    "point": lambda: under_lamp("POINT", energy=500.0, shadow_soft_size=0.0),
+    "sun": lambda: under_lamp("SUN", energy=2.0, angle=0.1),
+    "area": lambda: under_lamp("AREA", energy=100.0, shape="RECTANGLE", size=2.0, size_y=0.5),
+    "area ellipse": area_ellipse,
+    "world": world,
+    "world image": world_image,
+    "emissive mesh": emissive_mesh,
+    "diffuse": shader("ShaderNodeBsdfDiffuse", Color=OCHRE),
+    "glossy": shader("ShaderNodeBsdfGlossy", "GGX", Color=WHITE, Roughness=0.5),
+    "mirror": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.0),
+    "glass": shader("ShaderNodeBsdfGlass", None, Roughness=0.0, IOR=1.5),
+    "mix": mixed,
+    "absorption": lambda: fog("ShaderNodeVolumeAbsorption", Color=OCHRE, Density=0.1),
+}
+if bpy.app.version >= (4, 2):
+    # Before, Cycles' points with a radius were discs, and its spots grew darker towards their rim.
+    SCENES["bulb"] = lambda: under_lamp("POINT", energy=500.0, shadow_soft_size=0.5, use_soft_falloff=False)
+    SCENES["spot"] = lambda: under_lamp("SPOT", energy=500.0, shadow_soft_size=0.0, spot_size=1.2, spot_blend=0.5)
+else:
+    # The volumes of later versions have a mean error of their own, which depends on the sample count.
+    SCENES["fog"] = lambda: fog("ShaderNodeVolumeScatter", Color=OCHRE, Density=0.05, Anisotropy=0.3)
+    SCENES["principled fog"] = lambda: fog("ShaderNodeVolumePrincipled", Color=OCHRE, Density=0.05)
+
+
+def set_up_cycles(scene: Any) -> None:
+    """Everything that makes Cycles exact."""
+    exact = {
+        "use_denoising": False,
+        "use_adaptive_sampling": False,
+        "sample_clamp_direct": 0.0,
+        "sample_clamp_indirect": 0.0,
+        "blur_glossy": 0.0,
+        "light_sampling_threshold": 0.0,
+        "pixel_filter_type": "BOX",
+        "device": "CPU",
+        "samples": SAMPLES,
+        "volume_biased": True,
+    }
+    exact |= dict.fromkeys(
+        [f"{kind}bounces" for kind in ("max_", "diffuse_", "glossy_", "volume_", "transmission_")], 128
+    )
+    for name, value in exact.items():
+        if hasattr(scene.cycles, name):
+            setattr(scene.cycles, name, value)
+
+
+def picture(engine: str, seed: int) -> Any:
+    scene = bpy.context.scene
+    scene.render.engine = engine
+    scene.cycles.seed = scene.glimmer.seed = seed
+    path = OUT / "picture.exr"
+    inside.render(path)
+    image = bpy.data.images.load(str(path), check_existing=False)
+    pixels = np.empty(WIDTH * HEIGHT * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(HEIGHT, WIDTH, 4)[..., :3]
+
+
+inside.use_format("OPEN_EXR")
+pictures = {}
+for name, build in SCENES.items():
+    build()
+    current = bpy.context.scene
+    current.render.resolution_x, current.render.resolution_y = WIDTH, HEIGHT
+    current.glimmer.samples, current.glimmer.filter = SAMPLES, "BOX"
+    set_up_cycles(current)
+    for engine in ("CYCLES", "GLIMMER"):
+        pictures[f"{name}.{engine}"] = np.array([picture(engine, seed) for seed in range(SEEDS)])
+np.savez(OUT / "pictures.npz", **pictures)
