@@ -172,7 +172,7 @@ def picture(engine: str, seed: int) -> Any:
 
 
 inside.use_format("OPEN_EXR")
-pictures = {}
+pictures: dict[str, Any] = {}
 for name, build in SCENES.items():
     build()
     current = bpy.context.scene
