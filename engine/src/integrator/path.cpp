@@ -445,12 +445,20 @@ class PathSample {
             state.origin.kind = DirectionOrigin::Kind::surface;
             state.origin.all_lights = all;
             state.origin.pdf = s->pdf;
-            state.origin.position = state.ray.origin; // where lights were sampled from
+            state.origin.position = lit_point(surface, geometric);
             if (state.direct_view())
                 state.first = PathState::First::surface;
             ++state.order;
         }
         push(state);
+    }
+
+    /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
+    /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
+    Vec3f lit_point(const Interaction &surface, const Vec3f &geometric) const {
+        const bool shining_sphere = surface.body >= scene_.accel->instances().size() &&
+                                    !is_black(scene_.materials[surface.material].emission);
+        return shining_sphere ? surface.origin_towards(geometric) : surface.position;
     }
 
     void sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
@@ -459,9 +467,7 @@ class PathSample {
             return;
         const bool camera = state.depth == 0;
         const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
-        // On the viewer's side of the surface for certain: a point that rounding put beneath an emissive sphere would
-        // be lit by it from within, and one above its inner side not.
-        const Vec3f x = surface.origin_towards(geometric);
+        const Vec3f x = lit_point(surface, geometric);
         for (uint32_t i = 0; i < choices(all); ++i) {
             const LightChoice choice = choose(i, all, x);
             const auto light = sample_light(scene_.lights[choice.index], x,
@@ -474,7 +480,7 @@ class PathSample {
             Rgb value = eval(bsdf, wo, wi) * light->radiance * (1 / light->pdf / choice.probability);
             if (fog)
                 value *= fog->transmittance(light->distance);
-            if (is_black(value) || occluded(x, *light, surface.error))
+            if (is_black(value) || occluded(surface.origin_towards(light->direction), *light, surface.error))
                 continue;
             if (!light->delta)
                 value *= balance(choice.probability * light->pdf, pdf(bsdf, wo, wi));
