@@ -768,7 +768,7 @@ FOG_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
 ]
 
 
-def all_layers(folder: Path, content: Scene) -> dict[str, np.ndarray]:
+def all_layers(folder: Path, content: Scene) -> dict[str, NDArray[Any]]:
     options = ("--spp", 4, "--aov", "object_index,material_index,normal,depth")
     return scenes.render(folder, content, *options).channels
 
