@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Translates materials, worlds and lamps and writes what came out: nodes_script.py FILE.
+
+Also registers and unregisters the add-on, and looks which panels know it.
+"""
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import inside
+
+glimmer = inside.enable()
+from glimmer.export.material import export_material  # noqa: E402 - the add-on's name inside Blender
+from glimmer.export.world import export_world  # noqa: E402
+from glimmer.scene.problems import Notices  # noqa: E402
+
+RED = (0.8, 0.1, 0.1, 1.0)
+
+
+class Build:
+    """A material under construction: shorter than Blender's own calls."""
+
+    def __init__(self, kind: str = "material") -> None:
+        if kind == "material":
+            self.owner = bpy.data.materials.new("Test")
+            self.output_kind = "ShaderNodeOutputMaterial"
+        else:
+            self.owner = bpy.data.worlds.new("Test")
+            self.output_kind = "ShaderNodeOutputWorld"
+        self.owner.use_nodes = True
+        self.tree = self.owner.node_tree
+        self.tree.nodes.clear()
+        self.output = self.tree.nodes.new(self.output_kind)
+
+    def node(self, kind: str, tree: Any = None, **inputs: Any) -> Any:
+        result = (tree or self.tree).nodes.new(kind)
+        for name, value in inputs.items():
+            result.inputs[name.replace("_", " ")].default_value = value
+        return result
+
+    def link(self, source: Any, target: Any) -> None:
+        target.id_data.links.new(source, target)
+
+    def surface(self, node: Any) -> None:
+        self.link(node.outputs[0], self.output.inputs["Surface"])
+
+    def volume(self, node: Any) -> None:
+        self.link(node.outputs[0], self.output.inputs["Volume"])
+
+
+def math_on_color() -> Build:
+    """0.5 * 0.5 through a value, two maths nodes, a reroute and a combine."""
+    b = Build()
+    value = b.node("ShaderNodeValue")
+    value.outputs[0].default_value = 0.5
+    multiply = b.node("ShaderNodeMath")
+    multiply.operation = "MULTIPLY"
+    reroute = b.node("NodeReroute")
+    combine = b.node("ShaderNodeCombineXYZ", Y=1.0)
+    b.link(value.outputs[0], multiply.inputs[0])
+    multiply.inputs[1].default_value = 0.5
+    b.link(multiply.outputs[0], reroute.inputs[0])
+    b.link(reroute.outputs[0], combine.inputs["X"])
+    diffuse = b.node("ShaderNodeBsdfDiffuse")
+    b.link(combine.outputs[0], diffuse.inputs["Color"])
+    b.surface(diffuse)
+    return b
+
+
+def group() -> Build:
+    """A shader in a group, with its colour from outside."""
+    b = Build()
+    inner = bpy.data.node_groups.new("Inner", "ShaderNodeTree")
+    if hasattr(inner, "interface"):
+        inner.interface.new_socket("Tint", in_out="INPUT", socket_type="NodeSocketColor")
+        inner.interface.new_socket("Out", in_out="OUTPUT", socket_type="NodeSocketShader")
+    else:
+        inner.inputs.new("NodeSocketColor", "Tint")
+        inner.outputs.new("NodeSocketShader", "Out")
+    entry, leave = b.node("NodeGroupInput", inner), b.node("NodeGroupOutput", inner)
+    diffuse = b.node("ShaderNodeBsdfDiffuse", inner)
+    b.link(entry.outputs[0], diffuse.inputs["Color"])
+    b.link(diffuse.outputs[0], leave.inputs[0])
+    outer = b.node("ShaderNodeGroup")
+    outer.node_tree = inner
+    outer.inputs["Tint"].default_value = RED
+    b.surface(outer)
+    return b
+
+
+def muted() -> Build:
+    b = Build()
+    diffuse, emission = b.node("ShaderNodeBsdfDiffuse", Color=RED), b.node("ShaderNodeEmission")
+    add = b.node("ShaderNodeAddShader")
+    b.link(diffuse.outputs[0], add.inputs[0])
+    b.link(emission.outputs[0], add.inputs[1])
+    add.mute = True
+    b.surface(add)
+    return b
+
+
+def sum_with_emission() -> Build:
+    b = Build()
+    diffuse, emission = b.node("ShaderNodeBsdfDiffuse", Color=RED), b.node("ShaderNodeEmission", Strength=3.0)
+    add = b.node("ShaderNodeAddShader")
+    b.link(diffuse.outputs[0], add.inputs[0])
+    b.link(emission.outputs[0], add.inputs[1])
+    b.surface(add)
+    return b
+
+
+def texture() -> Build:
+    b = Build()
+    image = bpy.data.images.new("Chequers", 2, 1, float_buffer=True)
+    image.pixels.foreach_set([0.0, 0.5, 1.0, 1.0, 1.0, 0.5, 0.0, 1.0])
+    picture = b.node("ShaderNodeTexImage")
+    picture.image = image
+    diffuse = b.node("ShaderNodeBsdfDiffuse")
+    b.link(picture.outputs["Color"], diffuse.inputs["Color"])
+    b.surface(diffuse)
+    return b
+
+
+def procedural() -> Build:
+    b = Build()
+    b.owner.diffuse_color = (0.25, 0.5, 0.75, 1.0)
+    diffuse = b.node("ShaderNodeBsdfDiffuse", Color=RED)
+    b.link(b.node("ShaderNodeTexNoise").outputs["Color"], diffuse.inputs["Color"])
+    b.surface(diffuse)
+    return b
+
+
+def unknown_shader() -> Build:
+    b = Build()
+    b.surface(b.node("ShaderNodeBsdfTranslucent", Color=RED))
+    return b
+
+
+def principled(**inputs: Any) -> Callable[[], Build]:
+    def build() -> Build:
+        b = Build()
+        shader = b.node("ShaderNodeBsdfPrincipled")
+        for name, value in inputs.items():
+            for candidate in name.split("__or__"):
+                socket = shader.inputs.get(candidate.replace("_", " "))
+                if socket is not None:
+                    socket.default_value = value
+                    break
+            else:
+                raise KeyError(name)
+        b.surface(shader)
+        return b
+
+    return build
+
+
+def nothing() -> Build:
+    return Build()
+
+
+def all_volumes() -> Build:
+    """Scatter + absorption."""
+    b = Build("world")
+    scatter = b.node("ShaderNodeVolumeScatter", Color=(0.5, 1.0, 0.25, 1.0), Density=0.2, Anisotropy=0.5)
+    absorption = b.node("ShaderNodeVolumeAbsorption", Color=(0.5, 1.0, 0.25, 1.0), Density=0.1)
+    add = b.node("ShaderNodeAddShader")
+    b.link(scatter.outputs[0], add.inputs[0])
+    b.link(absorption.outputs[0], add.inputs[1])
+    b.volume(add)
+    return b
+
+
+def principled_volume() -> Build:
+    b = Build("world")
+    b.volume(b.node("ShaderNodeVolumePrincipled", Color=(0.5, 0.25, 1.0, 1.0), Density=2.0))
+    return b
+
+
+def coefficients() -> Build:
+    b = Build("world")
+    values = {"Absorption_Coefficients": (0.1, 0.2, 0.3), "Scatter_Coefficients": (0.4, 0.5, 0.6), "Anisotropy": -0.3}
+    b.volume(b.node("ShaderNodeVolumeCoefficients", **values))
+    return b
+
+
+def background() -> Build:
+    b = Build("world")
+    b.surface(b.node("ShaderNodeBackground", Color=(0.1, 0.2, 0.3, 1.0), Strength=2.0))
+    return b
+
+
+def sky() -> Build:
+    b = Build("world")
+    b.owner.color = (0.3, 0.2, 0.1)
+    node = b.node("ShaderNodeBackground", Strength=2.0)
+    b.link(b.node("ShaderNodeTexSky").outputs[0], node.inputs["Color"])
+    b.surface(node)
+    return b
+
+
+MATERIALS: dict[str, Callable[[], Build]] = {
+    "math_on_color": math_on_color,
+    "group": group,
+    "muted": muted,
+    "sum_with_emission": sum_with_emission,
+    "texture": texture,
+    "procedural": procedural,
+    "unknown_shader": unknown_shader,
+    "nothing": nothing,
+    "principled_metal": principled(Base_Color=RED, Metallic=1.0, Roughness=0.5),
+    "principled_glass": principled(
+        Base_Color=(1.0, 1.0, 1.0, 1.0), Roughness=0.0, IOR=1.33, Transmission_Weight__or__Transmission=1.0
+    ),
+    "principled_diffuse": principled(Base_Color=RED, Specular_IOR_Level__or__Specular=0.0),
+    "principled_emission": principled(
+        Base_Color=RED,
+        Specular_IOR_Level__or__Specular=0.0,
+        Emission_Color__or__Emission=(1.0, 0.5, 0.25, 1.0),
+        Emission_Strength=4.0,
+    ),
+    "principled_default": principled(),
+    "principled_coat": principled(Metallic=1.0, Coat_Weight__or__Clearcoat=0.5),
+}
+WORLDS = {
+    "all_volumes": all_volumes,
+    "principled_volume": principled_volume,
+    "background": background,
+    "sky": sky,
+}
+if hasattr(bpy.types, "ShaderNodeVolumeCoefficients"):
+    WORLDS["coefficients"] = coefficients
+
+
+def translate() -> dict[str, Any]:
+    facts: dict[str, Any] = {}
+    for name, build in MATERIALS.items():
+        notices = Notices()
+        facts[name] = {"is": repr(export_material(build().owner, "Thing", notices).material)}
+        facts[name]["notices"] = [str(notice) for notice in notices.items]
+    for name, build in WORLDS.items():
+        notices = Notices()
+        environment, medium = export_world(build().owner, notices)
+        facts[name] = {"radiance": environment.radiance, "medium": None if medium is None else vars(medium)}
+        facts[name]["notices"] = [str(notice) for notice in notices.items]
+    return facts
+
+
+def fog_and_sun() -> list[str]:
+    """What a render says of a sun and a sky behind endless fog."""
+    from glimmer import reports
+
+    scene = inside.empty_scene((0.5, 0.5, 0.5))
+    inside.plane()
+    inside.lamp("SUN", (0.0, 0.0, 5.0), energy=1.0)
+    tree = scene.world.node_tree
+    tree.links.new(tree.nodes.new("ShaderNodeVolumeScatter").outputs[0], tree.nodes["World Output"].inputs["Volume"])
+    scene.glimmer.samples = 1
+    bpy.ops.render.render()
+    lines: list[str] = reports.last()["export"]["notices"]
+    return lines
+
+
+def registration() -> dict[str, Any]:
+    def compatible() -> set[str]:
+        return {p.__name__ for p in bpy.types.Panel.__subclasses__() if "GLIMMER" in getattr(p, "COMPAT_ENGINES", ())}
+
+    before = compatible()
+    ours = {p.__name__ for p in bpy.types.Panel.__subclasses__() if p.__module__.startswith("glimmer")}
+    glimmer.unregister()
+    gone = not hasattr(bpy.types.Scene, "glimmer") and not hasattr(bpy.types.Object, "glimmer")
+    after = compatible() - ours
+    glimmer.register()
+    return {"panels": sorted(before), "left": sorted(after), "gone": gone, "again": compatible() == before}
+
+
+result = {"nodes": translate(), "fog_and_sun": fog_and_sun(), "registration": registration()}
+Path(inside.words()[0]).write_text(json.dumps(result))

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shader nodes of real Blenders, as the engine's materials, world and fog; and the add-on's registration."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hosts import Host
+
+from addon.export.color import mean_fresnel
+from addon.scene.description import Conductor, Glass, Lambert, Material, Mix
+
+RED = (0.8, 0.1, 0.1)
+
+
+@pytest.fixture(scope="module")
+def facts(host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    path = tmp_path_factory.mktemp("nodes") / "facts.json"
+    host.run_script(Path(__file__).with_name("nodes_script.py"), str(path))
+    result: dict[str, Any] = json.loads(path.read_text())
+    return result
+
+
+def material(facts: dict[str, Any], name: str) -> tuple[Material, list[str]]:
+    names = {kind.__name__: kind for kind in (Lambert, Conductor, Glass, Mix)}
+    found = facts["nodes"][name]
+    return eval(found["is"], names), found["notices"]
+
+
+def close(color: tuple[float, ...]) -> Any:
+    return pytest.approx(color, abs=1e-6)
+
+
+def test_constants_are_folded(facts: dict[str, Any]) -> None:
+    found, notices = material(facts, "math_on_color")
+    assert isinstance(found, Lambert)
+    assert found.albedo == close((0.25, 1.0, 0.0))
+    assert notices == []
+
+
+@pytest.mark.parametrize("name", ["group", "muted", "principled_diffuse"])
+def test_red_diffuse_by_way_of(facts: dict[str, Any], name: str) -> None:
+    found, notices = material(facts, name)
+    assert isinstance(found, Lambert)
+    assert found.albedo == close(RED)
+    assert notices == []
+
+
+def test_emission_is_added(facts: dict[str, Any]) -> None:
+    found, notices = material(facts, "sum_with_emission")
+    assert isinstance(found, Lambert)
+    assert (found.albedo, found.emission) == (close(RED), close((3.0, 3.0, 3.0)))
+    assert notices == []
+
+
+def test_principled_emission(facts: dict[str, Any]) -> None:
+    found, _ = material(facts, "principled_emission")
+    assert isinstance(found, Lambert)
+    assert found.emission == close((4.0, 2.0, 1.0))
+
+
+def test_principled_metal(facts: dict[str, Any]) -> None:
+    found, notices = material(facts, "principled_metal")
+    assert isinstance(found, Conductor)
+    assert found.alpha == pytest.approx(0.25)
+    assert found.f0 == close(RED)
+    assert notices == []
+
+
+def test_principled_glass(facts: dict[str, Any]) -> None:
+    found, notices = material(facts, "principled_glass")
+    assert isinstance(found, Glass)
+    assert found.ior == pytest.approx(1.33)
+    assert notices == []
+
+
+def test_principled_default_is_told_to_be_approximate(facts: dict[str, Any]) -> None:
+    found, notices = material(facts, "principled_default")
+    assert isinstance(found, Mix)
+    # F0 = 0.04 in all versions: by the specular of old ones, and by an IOR of 1.5 in new ones.
+    assert found.weight == pytest.approx(mean_fresnel(1.5), rel=1e-4)
+    assert isinstance(found.b, Lambert)
+    assert found.b.albedo == close((0.8, 0.8, 0.8))
+    assert len(notices) == 1 and "approximated" in notices[0]
+
+
+NAMED = "object 'Thing', material 'Test"
+
+
+@pytest.mark.parametrize(
+    ("name", "albedo", "words"),
+    [
+        ("texture", (0.5, 0.5, 0.5), "the mean of image 'Chequers"),
+        ("procedural", (0.25, 0.5, 0.75), "the material's viewport colour (0.25, 0.5, 0.75)"),
+        ("unknown_shader", RED, "a diffuse surface of its colour"),
+    ],
+)
+def test_what_cannot_be_translated_is_named_and_not_black(
+    facts: dict[str, Any], name: str, albedo: tuple[float, ...], words: str
+) -> None:
+    found, notices = material(facts, name)
+    assert isinstance(found, Lambert)
+    assert found.albedo == close(albedo)
+    assert len(notices) == 1
+    assert notices[0].startswith(NAMED) and "node '" in notices[0] and words in notices[0]
+
+
+def test_a_coat_is_named(facts: dict[str, Any]) -> None:
+    _, notices = material(facts, "principled_coat")
+    assert len(notices) == 1 and "the clear coat is not supported" in notices[0]
+
+
+def test_a_material_without_a_shader_is_black_as_in_cycles_and_named(facts: dict[str, Any]) -> None:
+    found, notices = material(facts, "nothing")
+    assert found == Lambert((0.0, 0.0, 0.0))
+    assert len(notices) == 1 and "no surface shader" in notices[0]
+
+
+def test_a_background(facts: dict[str, Any]) -> None:
+    found = facts["nodes"]["background"]
+    assert found["radiance"] == close((0.2, 0.4, 0.6))
+    assert found["medium"] is None
+    assert found["notices"] == []
+
+
+def test_a_sky_is_named_and_not_black(facts: dict[str, Any]) -> None:
+    found = facts["nodes"]["sky"]
+    assert found["radiance"] == close((0.6, 0.4, 0.2))
+    assert len(found["notices"]) == 1 and "world 'Test" in found["notices"][0]
+
+
+def test_volumes_add_up(facts: dict[str, Any]) -> None:
+    medium = facts["nodes"]["all_volumes"]["medium"]
+    assert medium["sigma_s"] == close((0.1, 0.2, 0.05))
+    assert medium["sigma_a"] == close((0.05, 0.0, 0.075))
+    assert medium["g"] == pytest.approx(0.5)
+
+
+def test_a_principled_volume(facts: dict[str, Any]) -> None:
+    medium = facts["nodes"]["principled_volume"]["medium"]
+    assert medium["sigma_s"] == close((1.0, 0.5, 2.0))
+    assert medium["sigma_a"] == close((1.0, 1.5, 0.0))
+
+
+def test_volume_coefficients(facts: dict[str, Any], host: Host) -> None:
+    if "coefficients" not in facts["nodes"]:
+        assert host.kind == "blender", "the bpy wheel has the node"
+        return
+    medium = facts["nodes"]["coefficients"]["medium"]
+    assert medium["sigma_s"] == close((0.4, 0.5, 0.6))
+    assert medium["sigma_a"] == close((0.1, 0.2, 0.3))
+    assert medium["g"] == pytest.approx(-0.3)
+
+
+def test_light_behind_endless_fog_is_warned_of(facts: dict[str, Any]) -> None:
+    lines = facts["fog_and_sun"]
+    assert any(line.startswith("world 'World") and "remove the world's Volume shader" in line for line in lines)
+    assert any(line.startswith("object 'SUN") and "use a point, spot or area lamp" in line for line in lines)
+
+
+def test_unregister_takes_back_what_register_did(facts: dict[str, Any]) -> None:
+    registration = facts["registration"]
+    assert registration["gone"]
+    assert registration["left"] == []
+    assert registration["again"]
+
+
+def test_blenders_own_panels_stay_visible(facts: dict[str, Any]) -> None:
+    wanted = {
+        "RENDER_PT_format",
+        "RENDER_PT_output",
+        "RENDER_PT_color_management",
+        "DATA_PT_lens",
+        "DATA_PT_camera",
+        "DATA_PT_context_mesh",
+        "EEVEE_MATERIAL_PT_context_material",
+        "WORLD_PT_context_world",
+        "GLIMMER_PT_sampling",
+    }
+    assert wanted <= set(facts["registration"]["panels"])
