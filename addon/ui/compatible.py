@@ -32,7 +32,8 @@ def _panels() -> Iterator[type[bpy.types.Panel]]:
     for panel in bpy.types.Panel.__subclasses__():
         name = panel.__name__
         engines = getattr(panel, "COMPAT_ENGINES", None)
-        if not isinstance(engines, set) or name in HIDDEN or "freestyle" in name:
+        # The node editor's twin of a panel (NODE_...) shares its set of engines.
+        if not isinstance(engines, set) or name.removeprefix("NODE_") in HIDDEN or "freestyle" in name:
             continue
         if name in BORROWED or "BLENDER_RENDER" in engines:
             yield panel

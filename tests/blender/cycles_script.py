@@ -82,6 +82,37 @@ def emissive_mesh() -> None:
     inside.ball("Lamp", inside.material("ShaderNodeEmission", Color=OCHRE, Strength=5.0), (0.0, 0.0, 2.0), 16)
 
 
+def camera() -> None:
+    """Everything that a camera can do at once: shift, a lens that is not in focus, the height fitted."""
+    world_image((0.0, 0.0, 0.0))
+    inside.ball("Lamp", inside.material("ShaderNodeEmission", Color=OCHRE, Strength=2.0), (0.5, 1.0, 4.0), 16)
+    item = bpy.context.scene.camera
+    item.scale = (2.0, 2.0, 2.0)
+    data = item.data
+    data.lens, data.sensor_fit, data.sensor_height = 20.0, "VERTICAL", 20.0
+    data.shift_x, data.shift_y = 0.15, -0.2
+    data.dof.use_dof, data.dof.focus_distance, data.dof.aperture_fstop = True, 4.0, 0.05
+
+
+def instances() -> None:
+    """A collection in a collection, turned and scaled, with a lamp in it."""
+    inside.empty_scene((0.1, 0.1, 0.1))
+    floor()
+    ball = inside.ball("Ball", inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE), segments=16)
+    ball.scale = (0.5, 0.5, 0.8)
+    light = inside.lamp("AREA", (0.0, -1.0, 2.5), energy=40.0, shape="RECTANGLE", size=1.0, size_y=0.5)
+    root = bpy.context.scene.collection
+    inner, outer = bpy.data.collections.new("Inner"), bpy.data.collections.new("Outer")
+    for item in (ball, light):
+        root.objects.unlink(item)
+        inner.objects.link(item)
+    for collection, place, x, turn in ((inner, outer, 0.0, 0.5), (inner, outer, 1.5, 1.0), (outer, root, -1.0, 0.3)):
+        empty = bpy.data.objects.new("Empty", None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        empty.location, empty.rotation_euler, empty.scale = (x, 0.0, 0.0), (0.0, 0.0, turn), (0.9, 0.9, 0.9)
+        place.objects.link(empty)
+
+
 def mixed() -> None:
     under_lamps(inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
     tree = bpy.data.objects["Ball"].active_material.node_tree
@@ -118,6 +149,8 @@ SCENES: dict[str, Callable[[], Any]] = {
     "area ellipse": area_ellipse,
     "world": world,
     "world image": world_image,
+    "camera": camera,
+    "instances": instances,
     "emissive mesh": emissive_mesh,
     "diffuse": shader("ShaderNodeBsdfDiffuse", Color=OCHRE),
     "glossy": shader("ShaderNodeBsdfGlossy", "GGX", Color=WHITE, Roughness=0.5),

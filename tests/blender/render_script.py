@@ -50,6 +50,23 @@ def stills() -> None:
     inside.render(OUT / "border_in_full.exr")
 
 
+def settings() -> None:
+    scene = new_scene()
+    inside.use_format("OPEN_EXR")
+    ours = scene.glimmer
+    ours.use_samples, ours.use_target_error, ours.target_error = False, True, 0.02
+    scene.render.threads_mode, scene.render.threads = "FIXED", 1
+    inside.render(OUT / "settings.exr")
+    facts["target_report"] = dict(reports.last())
+    ours.use_target_error, ours.use_seconds, ours.seconds = False, True, 0.5
+    ours.integrator, ours.seed, ours.use_max_depth, ours.max_depth = "report", 7, True, 1
+    scene.render.threads_mode = "AUTO"
+    inside.render(OUT / "settings.exr")
+    facts["time_report"] = dict(reports.last())
+    ours.use_seconds, ours.use_samples, ours.use_max_depth, ours.seed = False, True, False, 0
+    ours.property_unset("integrator")
+
+
 def scene_file() -> None:
     new_scene()
     bpy.ops.glimmer.export_scene(filepath=str(OUT / "scene.json"))
@@ -126,6 +143,7 @@ def hexagon_field() -> None:
 
 
 stills()
+settings()
 scene_file()
 layers_and_passes()
 animation()

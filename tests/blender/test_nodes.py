@@ -178,4 +178,7 @@ def test_blenders_own_panels_stay_visible(facts: dict[str, Any]) -> None:
         "WORLD_PT_context_world",
         "GLIMMER_PT_sampling",
     }
-    assert wanted <= set(facts["registration"]["panels"])
+    panels = set(facts["registration"]["panels"])
+    assert wanted <= panels
+    # What we replace must not stand there twice.
+    assert not {"DATA_PT_light", "DATA_PT_area", "DATA_PT_spot", "VIEWLAYER_PT_layer_passes"} & panels

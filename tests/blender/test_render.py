@@ -158,6 +158,21 @@ def test_twenty_thousand_plates_are_read_well_within_a_second(facts: dict[str, A
     assert 20_419 * 12 * 4 < export["bytes"] < 20_419 * 16 * 8 * 1.2
 
 
+def test_an_error_target_is_met(facts: dict[str, Any]) -> None:
+    report = facts["target_report"]
+    assert report["error"]["high"] <= 0.02
+    assert report["threads"] == 1
+    assert report["integrator"] == "path"
+
+
+def test_a_time_limit_and_the_rest_of_the_settings_arrive(facts: dict[str, Any]) -> None:
+    report = facts["time_report"]
+    # One pass over 60 x 40 pixels takes some milliseconds; the limit is looked at between passes.
+    assert 0.4 < report["seconds"]["render"] < 5.0
+    assert (report["integrator"], report["seed"]) == ("report", 7)
+    assert any("depth" in line for line in report["biased_by"])
+
+
 def test_the_report_is_whole(facts: dict[str, Any]) -> None:
     report = facts["report"]
     assert report["spp"] == 8
