@@ -153,7 +153,7 @@ int run_render(const RenderOptions &options) {
     }
     write_results(options, scene, render.get(), progress,
                   make_report(render.get(), load_seconds, build_seconds, scene.left_out));
-    const bool cut_short = progress.state == GLIMMER_CANCELLED;
+    const bool cut_short = progress.state != GLIMMER_FINISHED;
     line.say(summary(options, progress) + (cut_short ? " (interrupted)" : ""));
     return cut_short ? kInterrupted : kDone;
 }

@@ -47,6 +47,16 @@ std::string in_quotes(std::string_view text) {
     return result + "\"";
 }
 
+std::string one_line(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+        text.pop_back();
+    for (char &character : text) {
+        const auto byte = static_cast<unsigned char>(character);
+        character = byte < 0x20 || byte == 0x7f ? ' ' : byte > 0x7f ? '?' : character;
+    }
+    return text;
+}
+
 std::string quoted_list(std::span<const std::string> names) {
     constexpr size_t limit = 8;
     if (names.empty())

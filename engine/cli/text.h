@@ -12,6 +12,9 @@ namespace glimmer {
 /// message.
 std::string in_quotes(std::string_view text);
 
+/// A library's message as part of a one-line message: control characters become spaces, bytes beyond ASCII "?".
+std::string one_line(std::string text);
+
 /// "\"a\", \"b\"": each quoted; after eight names "and 12 more"; "none" when there are none.
 std::string quoted_list(std::span<const std::string> names);
 

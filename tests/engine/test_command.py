@@ -397,6 +397,35 @@ def test_resumed_after_interruption(tmp_path: Path) -> None:
     assert same_bits(resumed, render(tmp_path, hazy_moon(), "--spp", samples, name="whole"))
 
 
+@pytest.mark.full
+def test_checkpoint_survives_a_kill(tmp_path: Path) -> None:
+    """Saved every 30 seconds, in the middle of the render, without a word from anyone."""
+    state = tmp_path / "state"
+    process = start_endless(tmp_path, "--checkpoint", state)
+    for _ in range(60):
+        time.sleep(1)
+        if state.exists():
+            break
+    process.kill()
+    process.communicate(timeout=30)
+    assert state.exists() and not (tmp_path / "out.exr").exists()
+    path = write_scene(tmp_path, hazy_moon())
+    told = run_glimmer(path, "-o", tmp_path / "first.exr", "--checkpoint", state, "--time", 0.001)
+    samples = re.search(r"going on from (\d+) spp", told.stderr)
+    assert samples is not None and int(samples[1]) > 100, told.stderr
+    total = read_exr(tmp_path / "first.exr").attributes["glimmer:spp"] + 5
+    resumed = render(tmp_path, hazy_moon(), "--spp", total, "--checkpoint", state, name="resumed")
+    assert same_bits(resumed, render(tmp_path, hazy_moon(), "--spp", total, name="whole"))
+
+
+def test_finished_checkpoint_is_the_picture(tmp_path: Path) -> None:
+    state = tmp_path / "state"
+    first = render(tmp_path, hazy_moon(), "--spp", 9, "--checkpoint", state)
+    assert same_bits(first, render(tmp_path, hazy_moon(), "--spp", 9, "--checkpoint", state, name="again"))
+    less = render(tmp_path, hazy_moon(), "--spp", 4, "--checkpoint", state, name="less")
+    assert less.attributes["glimmer:spp"] == 9 and same_bits(first, less)
+
+
 def test_bad_checkpoints(tmp_path: Path) -> None:
     state = tmp_path / "state"
     path = write_scene(tmp_path, hazy_moon())

@@ -41,11 +41,8 @@ bool to_linear(const std::string &space, std::vector<float> &values) {
 
 ImageData read_image(const std::filesystem::path &path, const std::string &name) {
     const auto fail = [&](const std::string &what) { throw InputError(name + ": " + what); };
-    const auto complain = [&](std::string message) {
-        for (char &character : message)
-            if (character == '\n')
-                character = ' ';
-        fail("is not an image that can be read: " + message);
+    const auto complain = [&](const std::string &message) {
+        fail("is not an image that can be read: " + one_line(message));
     };
     // The colours as they are stored, not multiplied by the alpha that we ignore.
     OIIO::ImageSpec config;

@@ -122,10 +122,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
             if (const size_t at = what.find(mark); at != std::string::npos)
                 what = what.substr(at + std::string(mark).size());
         }
-        for (char &character : what)
-            if (const auto byte = static_cast<unsigned char>(character); byte < 0x20 || byte >= 0x7f)
-                character = '?'; // it quotes what may be no text at all
-        return what;
+        return one_line(what);
     }
 
     Json &root_;

@@ -9,18 +9,20 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <tiny_obj_loader.h>
 #include <tuple>
 
 namespace glimmer {
 namespace {
 
-/// Text that the loader puts on several lines, on one.
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n')
-        text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+/// The line of the loader's warnings that has a word in it; "" when none has.
+std::string line_with(const std::string &warnings, std::string_view word) {
+    std::istringstream lines(warnings);
+    for (std::string line; std::getline(lines, line);)
+        if (line.find(word) != std::string::npos)
+            return line;
+    return "";
 }
 
 } // namespace
@@ -34,8 +36,9 @@ MeshData parse_obj(const std::string &text, const std::string &name) {
     std::istringstream stream(text);
     if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &stream, nullptr, true))
         fail(errors.empty() ? "is not a .obj file" : one_line(errors));
-    if (warnings.find("out of bounds") != std::string::npos) // the loader would leave such faces out
-        fail(one_line(warnings));
+    // The loader would leave such faces out.
+    if (const std::string line = line_with(warnings, "out of bounds"); !line.empty())
+        fail(one_line(line));
 
     // One vertex for each different (position, normal, uv); a normal or uv counts only where all corners have one.
     size_t corners = 0, with_normal = 0, with_uv = 0;
