@@ -13,7 +13,8 @@ namespace glimmer {
 namespace {
 
 constexpr float kGuidedStart = 0.85f;       // of the paths start by importance, the rest at any light
-constexpr uint32_t kVertexGuard = 1u << 20; // of one path
+constexpr uint32_t kVertexGuard = 1u << 20; // of one path with its branches
+constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 
 /// One path. All of its decisions follow the flux, so refraction scales nothing.
 class LightPath {
@@ -23,87 +24,107 @@ class LightPath {
         : scene_(scene), importance_(importance), sampler_(sampler), rays_(rays), out_(out) {}
 
     void trace(const Emission &start, const GlassStack &around, float target) {
-        ray_ = start.ray;
-        power_ = start.power;
-        glass_ = around;
         target_ = target;
-        for (uint32_t i = 0; i < kVertexGuard && segment(); ++i) {
+        branches_.push_back({start.ray, start.power, around});
+        for (uint32_t i = 0; i < kVertexGuard && !branches_.empty(); ++i) {
+            const Branch next = branches_.back();
+            branches_.pop_back();
+            segment(next);
         }
+        branches_.clear();
     }
 
   private:
-    bool segment() {
-        const auto hit = scene_.accel->intersect(ray_);
+    struct Branch {
+        Ray ray;
+        Rgb power;
+        GlassStack glass;
+    };
+
+    void segment(Branch path) {
+        const auto hit = scene_.accel->intersect(path.ray);
         ++rays_.rays;
-        const float own = ray_.t_max; // finite only within a see-through ball, where it ends
-        ray_.t_max = kInfinity;
-        if (scene_.medium && glass_.empty()) {
-            const FreeFlight flight = sample_free_flight(*scene_.medium, power_, hit ? hit->t : own, sampler_);
-            power_ *= flight.weight;
+        const float own = path.ray.t_max; // finite only within a see-through ball, where it ends
+        path.ray.t_max = kInfinity;
+        if (scene_.medium && path.glass.empty()) {
+            const FreeFlight flight = sample_free_flight(*scene_.medium, path.power, hit ? hit->t : own, sampler_);
+            path.power *= flight.weight;
             if (flight.scattered)
-                return scatter_in_fog(ray_.origin + ray_.direction * flight.t);
+                return scatter_in_fog(path, path.ray.origin + path.ray.direction * flight.t);
         }
-        return hit && scatter_at_surface(*hit);
+        if (hit)
+            scatter_at_surface(path, *hit);
     }
 
-    /// Roulette against the importance of the place: paths that cannot be seen end, those that go where the camera
-    /// looks stay.
-    bool survives(const Vec3f &x) {
-        const float weight = max_component(power_) * importance_(x) / target_;
-        if (!(weight > 0))
-            return false;
+    /// The weight window: what a path carries to x, relative to what the importance of the place asks for. Below 1 it
+    /// lives on with that probability; far above, it is worth several paths.
+    float survive(Branch &path, const Vec3f &x) {
+        const float weight = max_component(path.power) * importance_(x) / target_;
+        if (!(weight > 0) || (weight < 1 && sampler_.next_1d() >= weight))
+            return 0;
         if (weight >= 1)
-            return true;
-        if (sampler_.next_1d() >= weight)
-            return false;
-        power_ *= 1 / weight;
-        return true;
+            return weight;
+        path.power *= 1 / weight;
+        return 1;
     }
 
-    bool scatter_in_fog(const Vec3f &x) {
-        if (!survives(x))
-            return false;
-        out_.fog.add(x, power_);
-        ray_ = {x, HenyeyGreenstein{scene_.medium->g}.sample(ray_.direction, sampler_.next_2d()).direction};
-        return true;
+    /// Goes on as one path, or as several that share its power.
+    template <class GoOn>
+    void split(Branch &path, float weight, const GoOn &go_on) {
+        const uint32_t n = weight > kSplitAbove ? uint32_t(std::min(weight + 0.5f, kMostBranches)) : 1;
+        path.power *= 1 / float(n);
+        for (uint32_t i = 0; i < n; ++i)
+            go_on(path);
     }
 
-    bool scatter_at_surface(const Hit &hit) {
-        const Interaction surface = scene_.interaction(ray_, hit);
+    void scatter_in_fog(Branch &path, const Vec3f &x) {
+        const float weight = survive(path, x);
+        if (weight == 0)
+            return;
+        out_.fog.add(x, path.power);
+        const Vec3f before = path.ray.direction;
+        split(path, weight, [&](Branch &next) {
+            next.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(before, sampler_.next_2d()).direction};
+            branches_.push_back(next);
+        });
+    }
+
+    void scatter_at_surface(Branch &path, const Hit &hit) {
+        const Interaction surface = scene_.interaction(path.ray, hit);
         const Material &material = scene_.materials[surface.material];
         if (material.kind == MaterialKind::glass)
-            return pass_glass(surface, material);
+            return pass_glass(path, surface, material);
         const Bsdf bsdf = scene_.bsdf(material);
-        if (bsdf.empty() || !survives(surface.position))
-            return false;
-        const Vec3f incoming = -ray_.direction;
+        const float weight = bsdf.empty() ? 0 : survive(path, surface.position);
+        if (weight == 0)
+            return;
+        const Vec3f incoming = -path.ray.direction;
         const float side = dot(incoming, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
         SurfaceVertex v{surface.position,
                         surface.geometric_normal * side,
                         surface.shading_normal * side,
                         incoming,
                         surface.error,
-                        power_,
-                        0,
+                        path.power,
+                        luminance(path.power * albedo(bsdf)),
                         surface.material};
         if (!(dot(incoming, v.geometric) > 0))
-            return false;
-        v.reflectance = luminance(power_ * albedo(bsdf));
+            return;
         if (!is_specular(bsdf))
             out_.surface.push_back(v);
-        return reflect(v, surface, bsdf);
+        split(path, weight, [&](Branch next) { reflect(next, v, surface, bsdf); });
     }
 
     /// Samples the adjoint of what a camera path does: f |w_in.ns| / |w_in.ng| * |w_out.ng|, with the frame as seen
     /// along w_out (Veach 1997, 5.3). Where the normals differ, an eighth of the directions is drawn about the true
     /// normal, since the frame of w_in has no samples for some that the camera can see.
-    bool reflect(const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
+    void reflect(Branch &path, const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
         const bool bent = !(v.shading == v.geometric);
         const Vec3f own_shading = dot(v.incoming, v.shading) > 1e-6f ? v.shading : v.geometric;
         const Frame frame(own_shading);
         const Vec3f incoming = frame.to_local(v.incoming);
         if (!(incoming.z > 0))
-            return false;
+            return;
         constexpr float kTrueNormal = 0.125f;
         Vec3f direction;
         float density;
@@ -113,40 +134,40 @@ class LightPath {
         } else {
             const auto s = sample(bsdf, incoming, sampler_.next_1d(), sampler_.next_2d());
             if (!s)
-                return false;
+                return;
             direction = normalize(frame.to_world(s->wi));
             if (!(dot(direction, v.geometric) > 0))
-                return false;
+                return;
             density = s->pdf;
             if (!bent || s->specular) {
-                power_ *= s->weight *
-                          ((incoming.z / dot(v.incoming, v.geometric)) *
-                           (dot(direction, v.geometric) / std::max(s->wi.z, 1e-7f)) / (bent ? 1 - kTrueNormal : 1.0f));
-                return leave(surface, direction);
+                path.power *= s->weight * ((incoming.z / dot(v.incoming, v.geometric)) *
+                                           (dot(direction, v.geometric) / std::max(s->wi.z, 1e-7f)) /
+                                           (bent ? 1 - kTrueNormal : 1.0f));
+                return leave(path, surface, direction);
             }
         }
         const float cosine = dot(direction, v.geometric);
         if (!(cosine > 0))
-            return false;
+            return;
         density = (1 - kTrueNormal) * density + kTrueNormal * pdf_cosine_hemisphere(cosine);
-        power_ *= connection_factor(v, bsdf, direction) * (1 / density);
-        return leave(surface, direction);
+        path.power *= connection_factor(v, bsdf, direction) * (1 / density);
+        return leave(path, surface, direction);
     }
 
-    bool leave(const Interaction &surface, const Vec3f &direction) {
-        ray_ = {surface.origin_towards(direction), direction};
-        return true;
+    void leave(Branch &path, const Interaction &surface, const Vec3f &direction) {
+        path.ray = {surface.origin_towards(direction), direction};
+        branches_.push_back(path);
     }
 
-    bool pass_glass(const Interaction &surface, const Material &material) {
-        const GlassCrossing crossing(surface, material, ray_.direction, glass_);
+    void pass_glass(Branch &path, const Interaction &surface, const Material &material) {
+        const GlassCrossing crossing(surface, material, path.ray.direction, path.glass);
         const GlassSample s = sample_glass(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
         const Vec3f direction = crossing.to_world(s.wi);
         if (!crossing.possible(direction, s.transmitted))
-            return false;
+            return;
         if (s.transmitted)
-            glass_ = crossing.beyond;
-        return leave(surface, direction);
+            path.glass = crossing.beyond;
+        leave(path, surface, direction);
     }
 
     const Scene &scene_;
@@ -154,9 +175,7 @@ class LightPath {
     Sampler &sampler_;
     RayCounter &rays_;
     LightVertices &out_;
-    Ray ray_;
-    Rgb power_;
-    GlassStack glass_;
+    std::vector<Branch> branches_;
     float target_ = 1;
 };
 

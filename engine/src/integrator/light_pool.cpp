@@ -33,7 +33,7 @@ LightPool::LightPool(const Scene &scene, const GlassStack &around_camera)
         around_lights_.push_back(scene.lights.bound(i).infinite ? GlassStack{}
                                                                 : glass_around(scene, scene.lights.bound(i).center));
     const FilmSettings &film = scene.film;
-    settings_.paths = std::clamp(film.crop_width * film.crop_height / kPixelsPerPath, 256u, 65536u);
+    settings_.paths = std::clamp(film.crop_width * film.crop_height / kPixelsPerPath, 512u, 65536u);
     set_bounds();
 }
 

@@ -456,8 +456,8 @@ class PathSample {
     /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
     /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
     Vec3f lit_point(const Interaction &surface, const Vec3f &geometric) const {
-        const bool shining_sphere = surface.body >= scene_.accel->instances().size() &&
-                                    !is_black(scene_.materials[surface.material].emission);
+        const bool shining_sphere =
+            surface.body >= scene_.accel->instances().size() && !is_black(scene_.materials[surface.material].emission);
         return shining_sphere ? surface.origin_towards(geometric) : surface.position;
     }
 
