@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The same picture from both integrators, where no closed form is known: block by block, channel by channel."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from addon.scene import description as d
+from tests.render.build import WHITE, Array, Builder, camera, floor, grey, hexagon, octahedron, quad, sky
+from tests.render.statistics import Measurement, Pictures, blocks, check_same
+
+PLATE = d.Mix(0.25, d.Lambert((0.5, 0.5, 0.55)), d.Conductor(0.25, eta=(2.6, 2.4, 2.2), k=(3.3, 3.1, 2.9)))
+
+
+def plates(rings: int = 5, spacing: float = 1.85, seed: int = 3) -> Array:
+    """(n, 4, 4): hexagons side by side, each a little off in height and tilt."""
+    rng = np.random.default_rng(seed)
+    matrices = []
+    for q in range(-rings, rings + 1):
+        for r in range(max(-rings, -q - rings), min(rings, -q + rings) + 1):
+            tilt_x, tilt_y = rng.normal(0, 0.05, 2)
+            m = np.eye(4)
+            m[:3, :3] = [[1, 0, tilt_y], [0, 1, -tilt_x], [-tilt_y, tilt_x, 1]]
+            m[:3, 3] = spacing * np.array([q * np.sqrt(3) / 2, r + q / 2, 0]) + [0, 8, rng.normal(0, 0.2)]
+            matrices.append(m)
+    return np.array(matrices)
+
+
+def field(medium: d.Medium | None, metal: d.Surface = PLATE) -> Builder:
+    """A hexagon field with three moons."""
+    scene = Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, medium=medium)
+    scene.mesh(hexagon(1, 0.3), metal, instances=plates())
+    scene.sphere((-3, 11, 4), 1.2, d.Light((3, 0.5, 0.3))).sphere((4, 9, 3), 0.8, d.Light((0.3, 3, 0.5)))
+    return scene.sphere((0.5, 16, 6), 1.5, d.Light((1, 1, 3)))
+
+
+def glass_in_fog() -> Builder:
+    scene = field(d.Medium(grey(0.01), grey(0.06)))
+    return scene.sphere((-0.5, 5, 1.6), 1, d.Glass(1.5)).sphere((1.6, 4, 1), 0.5, d.Mirror(grey(0.9)))
+
+
+def thousand_lights() -> Builder:
+    rng = np.random.default_rng(5)
+    scene = Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, medium=d.Medium(grey(0.005), grey(0.03)))
+    scene.mesh(hexagon(1, 0.3), PLATE, instances=plates())
+    centers = rng.uniform((-8, 0, 1), (8, 18, 6), (1000, 3))
+    return scene.spheres(centers, rng.uniform(0.02, 0.08, 1000), d.Light(grey(8)))
+
+
+def mesh_light_in_fog() -> Builder:
+    scene = Builder(camera((0, -6, 3), (0, 4, 1), 60), 32, 24, medium=d.Medium(grey(0.01), (0.08, 0.05, 0.03), 0.3))
+    scene.mesh(floor(0, 8, (0, 4)), d.Lambert(grey(0.6))).mesh(octahedron((1.5, 4, 1.5), 0.7), d.Light((2, 3, 1)))
+    scene.mesh(quad((-2, 5, 2), (0.7, 0, 0), (0, 0.2, 0.7)), d.Lambert(grey(0.4), emission=grey(1)))
+    return scene.sphere((0, 3, 0.6), 0.6, d.Conductor(0.2, f0=(0.9, 0.7, 0.4)))
+
+
+def lamps_in_fog() -> Builder:
+    down = np.eye(4)
+    down[:3, 3] = (2, 4, 3)
+    scene = Builder(camera((0, -6, 3), (0, 4, 1), 60), 32, 24, medium=d.Medium(grey(0.02), grey(0.08), -0.3))
+    scene.mesh(floor(0, 8, (0, 4)), d.Lambert(grey(0.6))).sphere((0, 3, 0.6), 0.6, d.Conductor(0.3, f0=WHITE))
+    scene.lamp(d.PointLight("point", (-2, 4, 2.5), (9, 5, 2))).lamp(
+        d.PointLight("ball", (-1, 7, 3), grey(9), radius=0.5)
+    )
+    scene.lamp(d.SpotLight("spot", (0, 1, 5), (0, 0.3, -1), (5, 9, 9), 50, 0.3))
+    return scene.lamp(d.AreaLight("area", down, (1.5, 1), (2, 1, 4), ellipse=True))
+
+
+SCENES: dict[str, Callable[[], Builder]] = {
+    "field": lambda: field(None),
+    "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
+        hexagon(1, 0.3), PLATE, instances=plates()
+    ),
+    "fog": lambda: field(d.Medium(grey(0.01), grey(0.06))),
+    "forward": lambda: field(d.Medium(grey(0.01), grey(0.06), 0.6)),
+    "backward": lambda: field(d.Medium(grey(0.01), grey(0.06), -0.6)),
+    "coloured": lambda: field(d.Medium((0.01, 0.03, 0.0), (0.02, 0.1, 0.06), 0.2)),
+    "thick": lambda: field(d.Medium(grey(0.01), grey(0.29))),
+    "smooth metal": lambda: field(d.Medium(grey(0.01), grey(0.06)), d.Conductor(0.05, f0=grey(0.8))),
+    "glass": glass_in_fog,
+    "thousand lights": thousand_lights,
+    "mesh light": mesh_light_in_fog,
+    "lamps": lamps_in_fog,
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_both_integrators(name: str) -> None:
+    scene = SCENES[name]().done()
+    path, report = (Pictures(Measurement(scene, integrator, samples=2)) for integrator in ("path", "report"))
+    check_same(
+        lambda seed: blocks(path(seed), 8),
+        lambda seed: blocks(report(seed), 8),
+        within=0.08,
+        what=name,
+    )

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mirrors and glass: what a chain of them leaves of a light is a product or a geometric series."""
+
+import numpy as np
+import pytest
+
+from addon.scene import description as d
+from tests.render import closed_forms as exact
+from tests.render.build import BLACK, WHITE, Builder, box, floor, grey, quad, radiometer, sky
+from tests.render.statistics import INTEGRATORS, Measurement, check_radiance
+
+pytestmark = pytest.mark.parametrize("integrator", INTEGRATORS)
+
+
+@pytest.mark.parametrize("metal", [False, True])
+@pytest.mark.parametrize("bounces", [1, 5, 20])
+def test_mirror_corridor(integrator: str, bounces: int, metal: bool) -> None:
+    """Two mirrors face to face, a light at the end: reflectance^n. One channel is lossless, so no path ends early."""
+    colour = (1.0, 0.9, 0.5)
+    mirror: d.Surface = d.Conductor(0, f0=colour) if metal else d.Mirror(colour)
+    slope = 1e-2 if metal else 1.0  # all but straight on, where Schlick's Fresnel is f0
+    end = 2 * slope * bounces
+    scene = Builder(radiometer((0, 0, 0), (1, slope, 0)))
+    for x in (1, -1):
+        scene.mesh(quad((x, end / 2, 0), (0, end, 0), (0, 0, 2)), mirror)
+    scene.mesh(quad((0, end, 0), (1, 0, 0), (0, 0, 2)), d.Light((1, 2, 3)))
+    expected = np.array(colour) ** bounces * [1, 2, 3]
+    # Schlick at a slope of 0.01: (1 - cos)^5 = 3e-22. A bounce is two roundings.
+    check_radiance(Measurement(scene.done(), integrator), expected, within=0, rounding=(64 + 4 * bounces) * 2.0**-24)
+
+
+def test_grey_corridor(integrator: str) -> None:
+    """The same by Russian roulette."""
+    scene = Builder(radiometer((0, 0, 0), (1, 1, 0)))
+    for x in (1, -1):
+        scene.mesh(quad((x, 10, 0), (0, 20, 0), (0, 0, 2)), d.Mirror(grey(0.9)))
+    scene.mesh(quad((0, 40, 0), (1, 0, 0), (0, 0, 2)), d.Light(WHITE))
+    scene.mesh(quad((1, 35, 0), (0, 5, 0), (0, 0, 2)), d.Mirror(grey(0.9)))
+    scene.mesh(quad((-1, 35, 0), (0, 5, 0), (0, 0, 2)), d.Mirror(grey(0.9)))
+    check_radiance(Measurement(scene.done(), integrator), 0.9**20, within=0.03)
+
+
+def test_plate_lit_by_way_of_nothing(integrator: str) -> None:
+    """A mirror's view of a lit plate: the plate's radiance times the reflectance, whatever light does on it."""
+    scene = Builder(radiometer((0, 0, 4), (0, 3, 4))).mesh(quad((0, 3, 4), (1, 0, 0), (0, 1, -1)), d.Mirror(grey(0.7)))
+    scene.mesh(floor(center=(0, 3)), d.Lambert(grey(0.5))).lamp(d.PointLight("point", (0, -2, 3), WHITE))
+    # From (0, 3, 4) the ray goes straight down to (0, 3, 0).
+    way = np.sqrt(25 + 9)
+    expected = 0.7 * 0.5 / np.pi * 3 / way**3
+    check_radiance(Measurement(scene.done(), integrator), expected, within=0.02)
+
+
+@pytest.mark.parametrize("ior", [1.5, 2.4, 1 / 1.3])
+@pytest.mark.parametrize("cosine", [1, 0.7])
+def test_slab(integrator: str, cosine: float, ior: float) -> None:
+    """Reflections inside it without end: T = (1 - R) / (1 + R) of what is behind, 2 R / (1 + R) of what is before."""
+    direction = np.array([0, np.sqrt(1 - cosine**2), -cosine])
+    scene = Builder(radiometer(-5 * direction, (0, 0, 0))).mesh(box((-30, -29, -1), (31, 30, 0)), d.Glass(ior))
+    scene.mesh(floor(-40, 400), d.Light((1, 0, 1))).mesh(floor(40, 400), d.Light((0, 1, 1)))
+    r = exact.fresnel(cosine, ior)
+    expected = [(1 - r) / (1 + r), 2 * r / (1 + r), 1]
+    check_radiance(Measurement(scene.done(), integrator, samples=16), expected, within=0.03)
+
+
+@pytest.mark.parametrize("degrees", [41, 43, 60])
+def test_total_internal_reflection(integrator: str, degrees: float) -> None:
+    """From within glass of index 1.5 nothing is seen through its face beyond 41.8 degrees: it is a perfect mirror."""
+    angle = np.radians(degrees)
+    eye = np.array([0, -np.tan(angle), -1])
+    scene = Builder(radiometer(eye, (0, 0, 0)), environment=sky(1)).mesh(
+        box((-50, -51, -50), (52, 50, 0)), d.Glass(1.5)
+    )
+    scene.sphere((0, 3 * np.tan(angle), -3), 1, d.Light((2, 0, 1)))
+    inside = np.array([2, 0, 1.0])
+    if degrees > 41.9:
+        check_radiance(Measurement(scene.done(), integrator), inside, within=0)
+        return
+    # Below it, by the reversibility of light: R is that of the outer side, radiance there counts 1.5^2.
+    r = exact.fresnel(np.sqrt(1 - (1.5 * np.sin(angle)) ** 2), 1.5)
+    check_radiance(Measurement(scene.done(), integrator), r * inside + (1 - r) * 2.25, within=0.02, rounding=1e-3)
+
+
+def test_nested_glass_meets_the_right_index(integrator: str) -> None:
+    """Glass of 1.5 within glass of 1.5 is not there: the light behind is dimmed by the outer walls alone."""
+    scene = Builder(radiometer((0, 0, 5), (0, 0, 0))).mesh(box((-30, -29, -6), (31, 30, 0)), d.Glass(1.5))
+    scene.mesh(box((-10, -9, -4), (11, 10, -2)), d.Glass(1.5)).mesh(floor(-40, 400), d.Light(WHITE))
+    r = exact.fresnel(1, 1.5)
+    check_radiance(Measurement(scene.done(), integrator), (1 - r) / (1 + r), within=0.02)
+
+
+def test_light_within_glass(integrator: str) -> None:
+    """Straight out of glass: (1 - R) / ior^2 of it; a black plate behind takes what is reflected."""
+    scene = Builder(radiometer((0, 0, 5), (0, 0, 0))).mesh(box((-30, -29, -6), (31, 30, 0)), d.Glass(1.5))
+    scene.mesh(quad((0.1, 0, -3), (20, 0, 0), (0, 20, 0)), d.Light(WHITE))
+    expected = (1 - exact.fresnel(1, 1.5)) / 2.25
+    check_radiance(Measurement(scene.done(), integrator), expected, within=0.01)
+
+
+def test_black_surfaces(integrator: str) -> None:
+    """Nothing at all comes from where nothing is."""
+    scene = Builder(radiometer((0, 0, 5), (0, 0, 0)), environment=sky()).mesh(floor(), d.Lambert(BLACK))
+    check_radiance(Measurement(scene.done(), integrator, samples=8), 0, within=0)
