@@ -14,6 +14,7 @@ struct FilmSample {
     Vec3f normal;
     float depth = 0; ///< along the axis; only where hit
     bool hit = false;
+    bool unfinished = false; ///< broken off by the guard against paths without end: what is missing is a bias
     uint32_t object_index = 0, material_index = 0;
 
     Rgb radiance() const { return emission + direct + indirect + fog; }

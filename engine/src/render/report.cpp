@@ -55,6 +55,8 @@ std::string Session::report_json() {
         biased.push_back("max_scatter " + std::to_string(settings_.limits.scatter));
     if (invalid_count_)
         biased.push_back(std::to_string(invalid_count_) + " invalid samples counted as black");
+    if (unfinished_count_)
+        biased.push_back(std::to_string(unfinished_count_) + " samples broken off on paths without end");
     std::string curve;
     for (const CurvePoint &c : curve_)
         curve += (curve.empty() ? "[" : ", [") + number(c.seconds) + ", " + number(c.cpu_seconds) + ", " +

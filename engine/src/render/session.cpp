@@ -271,6 +271,7 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
     const FilmSettings &settings = scene_->film;
     Film::Tile tile(film_, index);
     std::vector<InvalidSample> invalid;
+    uint64_t unfinished = 0;
     // Blocks are the integrator's; tiles are made of whole ones, so their size changes nothing.
     for (uint32_t by = 0; by < area.height; by += kBlockSize)
         for (uint32_t bx = 0; bx < area.width; bx += kBlockSize) {
@@ -288,6 +289,7 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
                         const CameraRay camera = sample_camera_ray(*scene_, x, y, sampler.stratified_2d(kSetPixel),
                                                                    sampler.stratified_2d(kSetLens));
                         const FilmSample value = integrator_->sample(camera, sampler, shared.get(), rays);
+                        unfinished += value.unfinished ? 1 : 0;
                         if (is_finite(value.radiance()))
                             tile.add(x - settings.crop_x - area.x, y - settings.crop_y - area.y, s, value);
                         else
@@ -296,10 +298,11 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
             }
         }
     tile.commit(end);
-    if (!invalid.empty()) {
+    if (unfinished || !invalid.empty()) {
         const std::lock_guard lock(mutex_);
+        unfinished_count_ += unfinished;
         invalid_count_ += invalid.size();
-        if (invalid_.empty())
+        if (invalid_.empty() && !invalid.empty())
             invalid_.push_back(invalid.front());
     }
     return true;

@@ -93,7 +93,7 @@ class Session {
     uint64_t samples_ = 0; ///< every pixel has them
     std::vector<CurvePoint> curve_;
     ErrorEstimate error_;
-    uint64_t invalid_count_ = 0;
+    uint64_t invalid_count_ = 0, unfinished_count_ = 0;
     std::vector<InvalidSample> invalid_; ///< the first one, if any
     std::vector<bool> dirty_;
     std::deque<size_t> dirty_order_;

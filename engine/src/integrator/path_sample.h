@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The work on one camera sample of the path integrator. Its steps stand in a file each: path_segment.cpp (one segment,
+// and light met by chance), path_fog.cpp, path_surface.cpp, path_vertices.cpp (light vertices shared by all pixels).
+#pragma once
+
+#include "integrator/light_pool.h"
+#include "integrator/path.h"
+#include "integrator/path_state.h"
+#include "light/line_sampler.h"
+
+#include <cmath>
+#include <vector>
+
+namespace glimmer {
+
+inline constexpr uint32_t kAllLights = 16; // up to here every light is sampled at what the camera sees
+inline constexpr uint32_t kManyLights = 4; // beyond, so many choices
+inline constexpr size_t kBranches =
+    24; // unfinished branches of one camera sample; beyond, segments are no longer split
+inline constexpr uint64_t kVertexGuard = 1u
+                                         << 22; // of one camera sample; reached only where light is shut in without end
+
+/// Stratified sample sets of the camera's own segment; everything later draws independent numbers. The film has 0
+/// and 1.
+enum Set : uint32_t { kSetCollision = 2, kSetPhase, kSetLobe, kSetBsdf, kSetLine = 16, kSetLight = 80 };
+
+/// The branches of one sample, kept from sample to sample so that the path loop allocates nothing.
+inline std::vector<PathState> &thread_stack() {
+    thread_local std::vector<PathState> stack;
+    return stack;
+}
+
+class PathSample {
+  public:
+    PathSample(const Scene &scene, const DepthLimits &limits, const PathOptions &options, const LightPoolBlock *pool,
+               Sampler &sampler, RayCounter &rays)
+        : scene_(scene), limits_(limits), options_(options), pool_(pool), sampler_(sampler), rays_(rays) {
+        if (scene_.medium) {
+            const Rgb &s = scene_.medium->sigma_t;
+            sigma_ = std::min(s.r, std::min(s.g, s.b));
+        }
+    }
+
+    FilmSample run(const PathState &camera) {
+        stack_.clear();
+        push(camera);
+        uint64_t vertices = 0;
+        while (!stack_.empty() && ++vertices < kVertexGuard) {
+            const PathState next = stack_.back();
+            stack_.pop_back();
+            follow(next);
+        }
+        result_.unfinished = !stack_.empty();
+        return result_;
+    }
+
+  private:
+    // -- One segment
+    // -----------------------------------------------------------------------------------------------------
+    void follow(PathState state);
+
+    // -- Light vertices
+    // --------------------------------------------------------------------------------------------------
+    /// Points in the fog of the segment that are joined to the pool; several where the camera sees it directly.
+    void gather_along(const PathState &state, float end, const Homogeneous &fog);
+    /// All light that reaches state.ray.origin scattered, as the fog scatters it there: from the pool, and by a short
+    /// ray for what the pool's bounded connections leave out. `scale`: the point is one of so many.
+    void gather(PathState &state, float scale);
+    /// The share 1 - w(d) of the vertex that a ray from a gather meets. Specular surfaces hold no vertices: they are
+    /// passed in full.
+    void compensate(PathState &state, const Homogeneous &fog);
+    /// The largest transmittance of a channel as far as absorption goes.
+    static float least_absorbed(const Homogeneous &fog, float t) {
+        return std::exp(-optical_depth(std::min(fog.sigma_a.r, std::min(fog.sigma_a.g, fog.sigma_a.b)), t));
+    }
+
+    // -- Light met by chance
+    // ---------------------------------------------------------------------------------------------
+    void add_emission(const PathState &state, const Hit &hit, const Interaction &surface, const Homogeneous *fog);
+    void add_lamps(const PathState &state, float end, const Homogeneous *fog);
+    void add_infinity(const PathState &state, const Homogeneous *fog);
+    void add_seen(const PathState &state, const Rgb &radiance, float distance, const Homogeneous *fog);
+    /// The weight of a light met by chance against having been sampled from the vertex before.
+    float direction_weight(const PathState &state, uint32_t light, uint32_t triangle, float distance,
+                           float cosine) const;
+
+    // -- Choice of lights: the expected number of samples of a light takes the place of its probability --------
+    /// Whether light is sampled along this segment, or at the collision that ends it.
+    bool lights_along(const PathState &state) const {
+        return state.direct_view() ? options_.line_lights : options_.deep_line_lights;
+    }
+    bool every_light(bool all) const { return all && options_.all_lights && scene_.lights.size() <= kAllLights; }
+    uint32_t choices(bool all) const {
+        return every_light(all) ? scene_.lights.size() : all && options_.all_lights ? kManyLights : 1;
+    }
+    /// The i-th choice at a place: x, or the segment (origin, direction, end).
+    template <class... Place>
+    LightChoice choose(uint32_t i, bool all, const Place &...place) {
+        if (every_light(all))
+            return {i, 1};
+        const float u = sampler_.next_1d(), n = float(scene_.lights.size());
+        LightChoice choice = options_.guided_choice ? scene_.lights.choose(place..., sigma_, u)
+                                                    : LightChoice{std::min(uint32_t(u * n), uint32_t(n) - 1), 1 / n};
+        choice.probability *= float(choices(all));
+        return choice;
+    }
+    template <class... Place>
+    float expected_samples(bool all, uint32_t light, const Place &...place) const {
+        if (every_light(all))
+            return 1;
+        const float probability = options_.guided_choice ? scene_.lights.probability(light, place..., sigma_)
+                                                         : 1 / float(scene_.lights.size());
+        return float(choices(all)) * probability;
+    }
+    LineSampler line_sampler(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
+        const LightBound &b = scene_.lights.bound(light);
+        return {*scene_.medium, origin, direction, end, b.center, b.radius};
+    }
+
+    // -- Fog
+    // -------------------------------------------------------------------------------------------------------------
+    /// The light that the fog scatters once into the segment.
+    void sample_lights_along(const PathState &state, float end, const Homogeneous &fog, bool split);
+    /// One path that goes on from within the segment, given that it scatters there.
+    void split_into_fog(const PathState &state, float end, const Homogeneous &fog);
+    /// True when the path scattered before the surface; else its throughput is that of a path that passed.
+    bool fly_into_fog(PathState &state, float end, const Homogeneous &fog);
+    void scatter_in_fog(const PathState &state, float end, const Homogeneous &fog, float t, const Rgb &weight,
+                        float pdf);
+    /// One light at a collision; by_chance: against the phase function that goes on from there and may meet it too.
+    void sample_light_in_fog(const PathState &state, const Vec3f &x, const Homogeneous &fog, bool by_chance);
+
+    // -- Surfaces
+    // --------------------------------------------------------------------------------------------------------
+    void note_first_surface(const Interaction &surface);
+    /// rough: also by the lobes that hold light vertices; else by mirrors and glass alone.
+    void scatter_at_surface(PathState &state, const Interaction &surface, bool rough = true);
+    /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
+    /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
+    Vec3f lit_point(const Interaction &surface, const Vec3f &geometric) const {
+        const bool shining_sphere =
+            surface.body >= scene_.accel->instances().size() && !is_black(scene_.materials[surface.material].emission);
+        return shining_sphere ? surface.origin_towards(geometric) : surface.position;
+    }
+    void sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
+                          const Vec3f &geometric, const Vec3f &wo, bool all);
+    void pass_glass(PathState &state, const Interaction &surface, const Material &material);
+
+    // -- Shared
+    // ----------------------------------------------------------------------------------------------------------
+    std::optional<Hit> intersect(const Ray &ray) {
+        ++rays_.rays;
+        return scene_.accel->intersect(ray);
+    }
+    /// `moved`: how far the origin was moved off its surface at most. A triangle that shines must not shadow itself, so
+    /// the ray ends short of it by all errors of both ends, seen along its plane.
+    bool occluded(const Vec3f &origin, const LightSample &light, float moved = 0);
+    /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow
+    /// without bound.
+    bool survives(PathState &state, const Vec3f &x);
+    void push(const PathState &state) { stack_.push_back(state); }
+
+    const Scene &scene_;
+    const DepthLimits &limits_;
+    const PathOptions &options_;
+    const LightPoolBlock *pool_; ///< null: plain paths
+    Sampler &sampler_;
+    RayCounter &rays_;
+    float sigma_ = 0; ///< smallest extinction of the channels
+    FilmSample result_;
+    std::vector<PathState> &stack_ = thread_stack(); ///< branches still to follow
+};
+
+} // namespace glimmer

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One segment of a path: what stands at its end, what shines on the way.
+#include "integrator/mis.h"
+#include "integrator/path_sample.h"
+#include "integrator/surroundings.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+void PathSample::follow(PathState state) {
+    const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+    if (state.compensates())
+        return compensate(state, *fog);
+    const std::optional<Hit> hit = intersect(state.ray);
+    const float end = hit ? hit->t : kInfinity;
+
+    add_lamps(state, end, fog);
+    std::optional<Interaction> surface;
+    if (hit) {
+        surface = scene_.interaction(state.ray, *hit);
+        if (state.direct_view() && state.depth == 0)
+            note_first_surface(*surface);
+        add_emission(state, *hit, *surface, fog);
+    } else {
+        add_infinity(state, fog);
+    }
+    if (state.depth >= limits_.depth)
+        return;
+
+    if (fog && fog->scatters() && state.scatter < limits_.scatter) {
+        const bool split = pool_ || (options_.split && state.direct_view() && stack_.size() < kBranches);
+        if (lights_along(state))
+            sample_lights_along(state, end, *fog, split);
+        if (pool_)
+            gather_along(state, end, *fog);
+        else if (split)
+            split_into_fog(state, end, *fog);
+        else if (fly_into_fog(state, end, *fog))
+            return;
+        if (split && surface)
+            state.beta *= fog->transmittance(end);
+    } else if (fog && surface) {
+        state.beta *= fog->transmittance(end);
+    }
+    if (!surface)
+        return;
+    if (fog && state.direct_view()) // an absorber in front of everything dims the picture, not what is behind it
+        state.exempt *= least_absorbed(*fog, end);
+    scatter_at_surface(state, *surface);
+}
+
+void PathSample::add_emission(const PathState &state, const Hit &hit, const Interaction &surface,
+                              const Homogeneous *fog) {
+    const Rgb &emission = scene_.materials[surface.material].emission;
+    if (is_black(emission))
+        return;
+    float weight = 1;
+    if (hit.instance == kNone) {
+        const uint32_t light = scene_.lights.of_sphere(hit.primitive);
+        weight = direction_weight(state, light, kNone, hit.t, 1);
+    } else if (scene_.lights.of_meshes() != kNone) {
+        const auto &mesh = std::get<MeshLight>(scene_.lights[scene_.lights.of_meshes()]);
+        const uint32_t triangle = mesh.triangle_of[mesh.first_of_instance[hit.instance] + hit.primitive];
+        if (triangle != kNone)
+            weight = direction_weight(state, scene_.lights.of_meshes(), triangle, hit.t,
+                                      std::abs(dot(surface.geometric_normal, state.ray.direction)));
+    }
+    add_seen(state, emission * weight, hit.t, fog);
+}
+
+void PathSample::add_lamps(const PathState &state, float end, const Homogeneous *fog) {
+    if (state.depth == 0) // the camera does not see lamps
+        return;
+    Ray ray = state.ray;
+    ray.t_max = end;
+    for (uint32_t light : scene_.lights.lamps())
+        if (const auto lamp = intersect_lamp(scene_.lights[light], ray))
+            add_seen(state, lamp->radiance * direction_weight(state, light, kNone, lamp->t, 1), lamp->t, fog);
+}
+
+void PathSample::add_infinity(const PathState &state, const Homogeneous *fog) {
+    for (uint32_t light : scene_.lights.infinite()) {
+        const bool sun = std::holds_alternative<SunLamp>(scene_.lights[light]);
+        if (sun && state.depth == 0)
+            continue;
+        const Rgb radiance = radiance_from_infinity(scene_.lights[light], state.ray.direction);
+        if (!is_black(radiance))
+            add_seen(state, radiance * direction_weight(state, light, kNone, kInfinity, 1), kInfinity, fog);
+    }
+}
+
+void PathSample::add_seen(const PathState &state, const Rgb &radiance, float distance, const Homogeneous *fog) {
+    const Rgb value = state.beta * radiance * (fog ? fog->transmittance(distance) : Rgb(1));
+    switch (state.first) {
+    case PathState::First::none:
+        result_.emission += value;
+        break;
+    case PathState::First::fog:
+        result_.fog += value;
+        break;
+    case PathState::First::surface:
+        (state.order == 1 ? result_.direct : result_.indirect) += value;
+    }
+}
+
+float PathSample::direction_weight(const PathState &state, uint32_t light, uint32_t triangle, float distance,
+                                   float cosine) const {
+    const DirectionOrigin &o = state.origin;
+    if (o.kind == DirectionOrigin::Kind::specular || light == kNone)
+        return 1;
+    const float at_light = light_pdf(scene_.lights[light], o.position, state.ray.direction, triangle, distance, cosine);
+    if (o.kind == DirectionOrigin::Kind::surface)
+        return balance(o.pdf, expected_samples(o.all_lights, light, o.position) * at_light);
+    if (scene_.lights.bound(light).infinite)
+        return 1;
+    if (!o.along)
+        return balance(o.pdf, expected_samples(false, light, o.position) * at_light);
+    const LineSampler line = line_sampler(light, o.segment_origin, o.segment_direction, o.segment_end);
+    const float samples = expected_samples(o.all_lights, light, o.segment_origin, o.segment_direction, o.segment_end);
+    return balance(o.distance_pdf * o.pdf, samples * line.pdf(o.distance) * at_light);
+}
+
+bool PathSample::occluded(const Vec3f &origin, const LightSample &light, float moved) {
+    ++rays_.rays;
+    constexpr float direction_error = 0x1p-21f; // of a unit vector in float32, and of Embree's own arithmetic
+    const float short_of_light =
+        light.distance * (1 - direction_error / light.facing) - (light.error + moved) / light.facing;
+    const float distance = std::max(short_of_light, 0.0f);
+    return scene_.accel->occluded({origin, light.direction, distance}, light.ignored_sphere);
+}
+
+bool PathSample::survives(PathState &state, const Vec3f &x) {
+    const float weight = max_component(state.beta) / state.exempt * surroundings_importance(scene_, x);
+    if (!(weight > 0))
+        return false;
+    if (weight >= 1)
+        return true;
+    if (sampler_.next_1d() >= weight)
+        return false;
+    state.beta *= 1 / weight;
+    return true;
+}
+
+} // namespace glimmer

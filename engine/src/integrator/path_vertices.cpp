@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light scattered more than once, from the vertices of light paths (light_pool.h).
+#include "integrator/path_sample.h"
+#include "sampling/warp.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+void PathSample::gather_along(const PathState &state, float end, const Homogeneous &fog) {
+    const uint32_t n = state.direct_view() ? pool_->settings.gathers : 1;
+    const uint64_t stratum = ~0ull / n;
+    for (uint32_t k = 0; k < n; ++k) {
+        const uint64_t bits = stratum * k + sampler_.next_bits() / n;
+        const Collision c = sample_collision(fog, state.beta, end, fog.grey ? 0 : sampler_.next_1d(), bits);
+        if (!(c.pdf > 0))
+            return;
+        PathState at = state;
+        at.beta *= c.weight * (1 / float(n));
+        at.ray.origin = state.ray.origin + state.ray.direction * c.t;
+        at.first = state.direct_view() ? PathState::First::fog : state.first;
+        gather(at, float(n));
+    }
+}
+
+void PathSample::gather(PathState &state, float scale) {
+    const Vec3f x = state.ray.origin;
+    state.exempt /= scale;
+    if (!survives(state, x))
+        return;
+    state.exempt *= scale;
+    const Rgb value = state.beta * pool_->pool.gather(x, sampler_, rays_);
+    (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
+    const float u = sampler_.next_1d(), k = std::sqrt((1 - u) / std::max(u, 1e-12f)); // P(k d0 > d) = 1 - w(d)
+    state.fog_reach = k * pool_->settings.fog_bound;
+    state.surface_reach = k * pool_->settings.surface_bound;
+    state.ray = {x, sample_uniform_sphere(sampler_.next_2d())};
+    state.origin = {};
+    ++state.depth;
+    ++state.scatter;
+    ++state.order;
+    push(state);
+}
+
+void PathSample::compensate(PathState &state, const Homogeneous &fog) {
+    const float fog_reach = state.fog_reach, surface_reach = state.surface_reach;
+    state.fog_reach = state.surface_reach = kInfinity;
+    const float reach = scene_.has_specular ? kInfinity : std::max(fog_reach, surface_reach);
+    state.ray.t_max = reach;
+    const std::optional<Hit> hit = intersect(state.ray);
+    const float end = hit ? hit->t : reach;
+    state.ray.t_max = kInfinity;
+    const FreeFlight flight = sample_free_flight(fog, state.beta, end, sampler_);
+    state.beta *= flight.weight;
+    if (flight.scattered) {
+        if (flight.t > fog_reach)
+            return;
+        state.ray.origin = state.ray.origin + state.ray.direction * flight.t;
+        sample_light_in_fog(state, state.ray.origin, fog, false);
+        gather(state, 1);
+    } else if (hit) {
+        const Interaction surface = scene_.interaction(state.ray, *hit);
+        scatter_at_surface(state, surface, hit->t <= surface_reach);
+    }
+}
+
+} // namespace glimmer
