@@ -35,7 +35,7 @@ PILOT, FRESH = 1 << 40, 1 << 32
 """Added to the seeds of a pilot run, and when a rejection is repeated."""
 PILOT_SEEDS, FEWEST_SEEDS, MOST_SEEDS = 16, 32, 2048
 
-_pool = ThreadPoolExecutor(os.cpu_count() or 1)
+pool = ThreadPoolExecutor(os.cpu_count() or 1)
 
 
 @dataclass
@@ -92,7 +92,7 @@ class Pictures:
 
 def repeat(estimate: Callable[[int], ArrayLike], seeds: int, first: int = 0) -> Array:
     """(seeds, ...) values of estimate(seed), on all cores: the engine lets go of the interpreter's lock."""
-    return np.array(list(_pool.map(estimate, range(first, first + seeds))), np.float64)
+    return np.array(list(pool.map(estimate, range(first, first + seeds))), np.float64)
 
 
 @dataclass(frozen=True)
