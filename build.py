@@ -27,7 +27,7 @@ ADDON = ROOT / "addon"
 BUILD = ROOT / "build"
 COMMAND = BUILD / "bin" / "glimmer"
 LIBRARY = BUILD / "lib" / "libglimmer.so"
-RENDER_SCRIPT = ROOT / "tools" / "render_blend.py"
+RENDER_SCRIPT = ROOT / "blend_scenes" / "render_blend.py"
 DEFAULT_SCENE = ROOT / "blend_scenes" / "glimmervoid.blend"
 REQUIREMENTS = ROOT / "tests" / "requirements"
 
@@ -306,7 +306,7 @@ def lint() -> None:
     checks: tuple[Sequence[str | Path], ...] = (
         [python, "-m", "ruff", "check", ROOT],
         [python, "-m", "ruff", "format", "--check", ROOT],
-        [python, "-m", "mypy", "build.py", "addon", "blend_scenes", "engine", "tests", "tools"],
+        [python, "-m", "mypy", "build.py", "addon", "blend_scenes", "engine", "tests"],
         ["clang-format", "--dry-run", "-Werror", *sources],
     )
     failures = []

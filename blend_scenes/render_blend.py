@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders one frame of a .blend with Glimmer and writes STEM.png (display-referred) and STEM.exr (linear, float32).
 
-Runs inside Blender (`blender -b --python tools/render_blend.py -- ...`) or on the bpy module. The add-on must be
+Runs inside Blender (`blender -b --python blend_scenes/render_blend.py -- ...`) or on the bpy module. The add-on must be
 findable as `glimmer`. Ends with a non-zero status when there is no picture.
 """
 
