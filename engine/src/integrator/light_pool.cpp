@@ -13,6 +13,7 @@ namespace {
 constexpr uint32_t kImportancePoints = 32; // seen points that steer the light paths
 constexpr uint32_t kBlockPoints = 12;      // seen points that stand for a block
 constexpr uint32_t kPixelsPerPath = 6;     // light paths cost about a tenth of the camera's work then
+constexpr uint32_t kMostPaths = 24576; // every block looks at all their vertices: beyond, that is what takes the time
 constexpr uint64_t kPassStream = 0x9a55, kBlockStream = 0xb10c,
                    kPilotStream = 0x9107; // keep the streams of random numbers apart
 
@@ -33,7 +34,7 @@ LightPool::LightPool(const Scene &scene, const GlassStack &around_camera)
         around_lights_.push_back(scene.lights.bound(i).infinite ? GlassStack{}
                                                                 : glass_around(scene, scene.lights.bound(i).center));
     const FilmSettings &film = scene.film;
-    settings_.paths = std::clamp(film.crop_width * film.crop_height / kPixelsPerPath, 512u, 65536u);
+    settings_.paths = std::clamp(film.crop_width * film.crop_height / kPixelsPerPath, 512u, kMostPaths);
     set_bounds();
 }
 
