@@ -150,12 +150,14 @@ void Session::work() {
     const size_t tiles = film_.tiles().size();
     while (state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED) {
         const bool prepared = batch_.done_passes == batch_.passes.size();
-        if (state_ == GLIMMER_RUNNING && !between_batches_ && batch_.next_pass < batch_.passes.size())
+        if (state_ == GLIMMER_RUNNING && !between_batches_ && batch_.next_pass < batch_.passes.size()) {
             take_pass(batch_.next_pass++, lock);
-        else if (state_ == GLIMMER_RUNNING && !between_batches_ && prepared && batch_.next_tile < tiles)
+        } else if (state_ == GLIMMER_RUNNING && !between_batches_ && prepared && batch_.next_tile < tiles) {
             take_tile(batch_.next_tile++, lock);
-        else
+        } else {
             changed_.wait(lock);
+            continue; // nothing changed: two that woke each other here would keep a core busy
+        }
         changed_.notify_all();
     }
     // The last one out draws the last point of the curve, of whatever was finished; a cancel does not wait for it.
