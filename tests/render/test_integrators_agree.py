@@ -67,6 +67,14 @@ def lamps_in_fog() -> Builder:
     return scene.lamp(d.AreaLight("area", down, (1.5, 1), (2, 1, 4), ellipse=True))
 
 
+def glass_between_lights() -> Builder:
+    """Two plates that shine, far apart: what is in their middle is not what is around them."""
+    scene = Builder(camera((0, -4, 1), (0, 4, 0.5), 60), 32, 24, medium=d.Medium(grey(0.02), grey(0.15)))
+    for x in (-3, 3):
+        scene.mesh(quad((x, 2, 1), (0, 0.5, 0), (0, 0, 0.5)), d.Light((5, 3, 1)))
+    return scene.sphere((0, 2, 1), 0.4, d.Glass(1.5))
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -82,6 +90,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
     "lamps": lamps_in_fog,
+    "glass between lights": glass_between_lights,
 }
 
 

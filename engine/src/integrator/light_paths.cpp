@@ -2,6 +2,7 @@
 #include "integrator/light_paths.h"
 
 #include "integrator/glass_crossing.h"
+#include "integrator/surroundings.h"
 #include "light/emission.h"
 #include "medium/phase.h"
 #include "scene/camera_sample.h"
@@ -224,9 +225,8 @@ std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixe
     return camera.ray.origin + camera.ray.direction * c.t;
 }
 
-LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance,
-                                const std::vector<GlassStack> &around_lights, uint32_t paths, Sampler &sampler,
-                                RayCounter &rays) {
+LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, uint32_t paths,
+                                Sampler &sampler, RayCounter &rays) {
     const LightSet &lights = scene.lights;
     std::vector<double> shares(lights.size());
     double total = 0;
@@ -257,7 +257,7 @@ LightVertices trace_light_paths(const Scene &scene, const CameraImportance &impo
                 continue;
             start->power *= float(1 / (shares[i] * paths));
             const float target = max_component(start->power) * importance(b.center);
-            path.trace(*start, around_lights[i], target);
+            path.trace(*start, glass_around(scene, start->ray.origin), target);
         }
     }
     return out;

@@ -61,8 +61,7 @@ std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixe
 
 /// Traces `paths` light paths. The mean over passes of the vertices' power, anywhere, is the power that is scattered
 /// there.
-LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance,
-                                const std::vector<GlassStack> &around_lights, uint32_t paths, Sampler &sampler,
-                                RayCounter &rays);
+LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, uint32_t paths,
+                                Sampler &sampler, RayCounter &rays);
 
 } // namespace glimmer

@@ -30,9 +30,6 @@ Sampler stream(uint64_t kind, uint64_t seed, uint64_t sample, uint32_t x, uint32
 
 LightPool::LightPool(const Scene &scene, const GlassStack &around_camera)
     : scene_(scene), around_camera_(around_camera) {
-    for (uint32_t i = 0; i < scene.lights.size(); ++i)
-        around_lights_.push_back(scene.lights.bound(i).infinite ? GlassStack{}
-                                                                : glass_around(scene, scene.lights.bound(i).center));
     const FilmSettings &film = scene.film;
     settings_.paths = std::clamp(film.crop_width * film.crop_height / kPixelsPerPath, 512u, kMostPaths);
     set_bounds();
@@ -50,7 +47,7 @@ void LightPool::set_bounds() {
     const std::vector<Vec3f> points = seen_points(all, kPoints, sampler, rays);
     const uint32_t paths = std::min(settings_.paths, 8192u);
     const CameraImportance importance(scene_, seen_points(all, kImportancePoints, sampler, rays));
-    const LightVertices pilot = trace_light_paths(scene_, importance, around_lights_, paths, sampler, rays);
+    const LightVertices pilot = trace_light_paths(scene_, importance, paths, sampler, rays);
     const float sigma = max_component(scene_.medium->sigma_t);
     std::vector<float> densities;
     for (const Vec3f &q : points) {
@@ -90,7 +87,7 @@ std::unique_ptr<const PassData> LightPool::prepare_pass(uint64_t seed, uint64_t 
     const FilmSettings &film = scene_.film;
     const CameraImportance importance(scene_, seen_points({film.crop_x, film.crop_y, film.crop_width, film.crop_height},
                                                           kImportancePoints, sampler, rays));
-    pass->vertices = trace_light_paths(scene_, importance, around_lights_, settings_.paths, sampler, rays);
+    pass->vertices = trace_light_paths(scene_, importance, settings_.paths, sampler, rays);
     return pass;
 }
 

@@ -26,7 +26,6 @@ class LightPool {
 
     const Scene &scene_;
     GlassStack around_camera_;
-    std::vector<GlassStack> around_lights_;
     PoolSettings settings_;
 };
 
