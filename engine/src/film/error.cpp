@@ -38,12 +38,12 @@ double pixel_error(const Replicates &sums, uint64_t n, uint32_t used, uint32_t l
 
 } // namespace
 
-ErrorEstimate estimate_error(const Film &film) {
+std::optional<ErrorEstimate> estimate_error(const Film &film, const std::atomic<bool> &stop) {
     const double pixels = double(film.width()) * double(film.height());
     const uint64_t least = film.min_samples();
     const auto used = uint32_t(std::min<uint64_t>(least, kReplicates));
     if (used < 2)
-        return {kNaN, kNaN, kNaN};
+        return ErrorEstimate{kNaN, kNaN, kNaN};
 
     double image_mean = 0;
     for (const Rectangle &tile : film.tiles())
@@ -54,12 +54,14 @@ ErrorEstimate estimate_error(const Film &film) {
             }
     image_mean /= pixels;
     if (image_mean == 0)
-        return {kNaN, kNaN, kNaN};
+        return ErrorEstimate{kNaN, kNaN, kNaN};
     const double epsilon = 1e-4 * image_mean * image_mean;
 
     double whole = 0;
     std::array<double, kReplicates> without{};
     for (size_t t = 0; t < film.tiles().size(); ++t) {
+        if (stop.load(std::memory_order_relaxed))
+            return std::nullopt;
         const Rectangle &tile = film.tiles()[t];
         const uint64_t n = film.tile_samples(t);
         const auto here = uint32_t(std::min<uint64_t>(n, kReplicates));
@@ -74,7 +76,7 @@ ErrorEstimate estimate_error(const Film &film) {
     }
     whole /= pixels;
     if (used < 3 || whole == 0)
-        return {whole, whole == 0 ? 0 : kNaN, whole == 0 ? 0 : kNaN};
+        return ErrorEstimate{whole, whole == 0 ? 0 : kNaN, whole == 0 ? 0 : kNaN};
 
     double mean_log = 0;
     for (uint32_t r = 0; r < used; ++r)
@@ -86,7 +88,7 @@ ErrorEstimate estimate_error(const Film &film) {
     }
     const double error = std::sqrt(spread * (used - 1) / used);
     const double factor = std::exp(kStudent[used - 1] * error);
-    return {whole, whole / factor, whole * factor};
+    return ErrorEstimate{whole, whole / factor, whole * factor};
 }
 
 } // namespace glimmer

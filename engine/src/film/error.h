@@ -4,6 +4,8 @@
 
 #include "film/film.h"
 
+#include <optional>
+
 namespace glimmer {
 
 /// relMSE = mean over pixels and channels of Var(mean) / (mean^2 + eps), eps = (0.01 * image mean)^2. NaN where not
@@ -16,7 +18,7 @@ struct ErrorEstimate {
 
 inline constexpr double kErrorConfidence = 0.95;
 
-/// Not locked: for use between batches.
-ErrorEstimate estimate_error(const Film &film);
+/// Not locked: for use between batches. Nothing once `stop` is set.
+std::optional<ErrorEstimate> estimate_error(const Film &film, const std::atomic<bool> &stop);
 
 } // namespace glimmer

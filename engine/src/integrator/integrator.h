@@ -10,6 +10,7 @@
 #include "scene/scene.h"
 
 #include <array>
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <string>
@@ -43,8 +44,11 @@ class Integrator {
     virtual ~Integrator() = default;
     /// Whether passes and blocks share anything.
     virtual bool shares() const { return false; }
-    /// For sample number `sample` of every pixel. Depends on it and the seed alone.
-    virtual std::unique_ptr<const PassData> prepare_pass(uint64_t, uint64_t, RayCounter &) const { return nullptr; }
+    /// For sample number `sample` of every pixel. Depends on it and the seed alone; once `stop` is set, broken off.
+    virtual std::unique_ptr<const PassData> prepare_pass(uint64_t, uint64_t, const std::atomic<bool> &,
+                                                         RayCounter &) const {
+        return nullptr;
+    }
     /// For the pixels of a block in that pass.
     virtual std::unique_ptr<const BlockData> prepare_block(const PassData &, const Rectangle &, RayCounter &) const {
         return nullptr;

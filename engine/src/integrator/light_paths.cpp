@@ -17,16 +17,18 @@ constexpr float kGuidedStart = 0.85f;       // of the paths start by importance,
 constexpr uint32_t kVertexGuard = 1u << 20; // of one path with its branches
 constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 
-/// One path. All of its decisions follow the flux, so refraction scales nothing.
+/// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way
+/// of mirrors and glass alone is left out: no path from the camera meets it, and so nothing would give back what
+/// bounded connections take away of it.
 class LightPath {
   public:
     LightPath(const Scene &scene, const CameraImportance &importance, Sampler &sampler, RayCounter &rays,
               LightVertices &out)
         : scene_(scene), importance_(importance), sampler_(sampler), rays_(rays), out_(out) {}
 
-    void trace(const Emission &start, const GlassStack &around, float target) {
+    void trace(const Emission &start, bool sharp, const GlassStack &around, float target) {
         target_ = target;
-        branches_.push_back({start.ray, start.power, around});
+        branches_.push_back({start.ray, start.power, around, sharp});
         for (uint32_t i = 0; i < kVertexGuard && !branches_.empty(); ++i) {
             const Branch next = branches_.back();
             branches_.pop_back();
@@ -40,6 +42,7 @@ class LightPath {
         Ray ray;
         Rgb power;
         GlassStack glass;
+        bool sharp; ///< straight from a light without size
     };
 
     void segment(Branch path) {
@@ -85,6 +88,7 @@ class LightPath {
         out_.fog.add(x, path.power);
         const Vec3f before = path.ray.direction;
         split(path, weight, [&](Branch &next) {
+            next.sharp = false;
             next.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(before, sampler_.next_2d()).direction};
             branches_.push_back(next);
         });
@@ -139,6 +143,8 @@ class LightPath {
             direction = normalize(frame.to_world(s->wi));
             if (!(dot(direction, v.geometric) > 0))
                 return;
+            if (s->specular && path.sharp)
+                return;
             density = s->pdf;
             if (!bent || s->specular) {
                 path.power *= s->weight * ((incoming.z / dot(v.incoming, v.geometric)) *
@@ -156,11 +162,14 @@ class LightPath {
     }
 
     void leave(Branch &path, const Interaction &surface, const Vec3f &direction) {
+        path.sharp = false;
         path.ray = {surface.origin_towards(direction), direction};
         branches_.push_back(path);
     }
 
     void pass_glass(Branch &path, const Interaction &surface, const Material &material) {
+        if (path.sharp)
+            return;
         const GlassCrossing crossing(surface, material, path.ray.direction, path.glass);
         const GlassSample s = sample_glass(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
         const Vec3f direction = crossing.to_world(s.wi);
@@ -226,7 +235,7 @@ std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixe
 }
 
 LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, uint32_t paths,
-                                Sampler &sampler, RayCounter &rays) {
+                                Sampler &sampler, const std::atomic<bool> &stop, RayCounter &rays) {
     const LightSet &lights = scene.lights;
     std::vector<double> shares(lights.size());
     double total = 0;
@@ -250,14 +259,15 @@ LightVertices trace_light_paths(const Scene &scene, const CameraImportance &impo
         sum += shares[i] * paths;
         const LightBound &b = lights.bound(i);
         const bool inwards = length(b.center) < b.radius; // the camera stands at the origin
-        for (; cursor < sum; cursor += 1) {
+        for (; cursor < sum && !stop.load(std::memory_order_relaxed); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
             auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());
             if (!start || is_black(start->power))
                 continue;
             start->power *= float(1 / (shares[i] * paths));
             const float target = max_component(start->power) * importance(b.center);
-            path.trace(*start, glass_around(scene, start->ray.origin), target);
+            path.trace(*start, std::holds_alternative<PointLamp>(lights[i]), glass_around(scene, start->ray.origin),
+                       target);
         }
     }
     return out;

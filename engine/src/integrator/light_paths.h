@@ -59,9 +59,9 @@ class CameraImportance {
 std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
                                        Sampler &sampler, RayCounter &rays);
 
-/// Traces `paths` light paths. The mean over passes of the vertices' power, anywhere, is the power that is scattered
-/// there.
+/// Traces `paths` light paths; fewer, and of no use, once `stop` is set. The mean over passes of the vertices' power,
+/// anywhere, is the power that is scattered there.
 LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, uint32_t paths,
-                                Sampler &sampler, RayCounter &rays);
+                                Sampler &sampler, const std::atomic<bool> &stop, RayCounter &rays);
 
 } // namespace glimmer

@@ -47,7 +47,8 @@ void LightPool::set_bounds() {
     const std::vector<Vec3f> points = seen_points(all, kPoints, sampler, rays);
     const uint32_t paths = std::min(settings_.paths, 8192u);
     const CameraImportance importance(scene_, seen_points(all, kImportancePoints, sampler, rays));
-    const LightVertices pilot = trace_light_paths(scene_, importance, paths, sampler, rays);
+    const std::atomic<bool> never{false};
+    const LightVertices pilot = trace_light_paths(scene_, importance, paths, sampler, never, rays);
     const float sigma = max_component(scene_.medium->sigma_t);
     std::vector<float> densities;
     for (const Vec3f &q : points) {
@@ -79,7 +80,8 @@ std::vector<Vec3f> LightPool::seen_points(const Rectangle &pixels, uint32_t coun
     return points;
 }
 
-std::unique_ptr<const PassData> LightPool::prepare_pass(uint64_t seed, uint64_t sample, RayCounter &rays) const {
+std::unique_ptr<const PassData> LightPool::prepare_pass(uint64_t seed, uint64_t sample, const std::atomic<bool> &stop,
+                                                        RayCounter &rays) const {
     auto pass = std::make_unique<LightPass>();
     pass->seed = seed;
     pass->sample = sample;
@@ -87,7 +89,7 @@ std::unique_ptr<const PassData> LightPool::prepare_pass(uint64_t seed, uint64_t 
     const FilmSettings &film = scene_.film;
     const CameraImportance importance(scene_, seen_points({film.crop_x, film.crop_y, film.crop_width, film.crop_height},
                                                           kImportancePoints, sampler, rays));
-    pass->vertices = trace_light_paths(scene_, importance, settings_.paths, sampler, rays);
+    pass->vertices = trace_light_paths(scene_, importance, settings_.paths, sampler, stop, rays);
     return pass;
 }
 

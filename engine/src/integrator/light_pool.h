@@ -16,7 +16,8 @@ class LightPool {
   public:
     LightPool(const Scene &scene, const GlassStack &around_camera);
 
-    std::unique_ptr<const PassData> prepare_pass(uint64_t seed, uint64_t sample, RayCounter &rays) const;
+    std::unique_ptr<const PassData> prepare_pass(uint64_t seed, uint64_t sample, const std::atomic<bool> &stop,
+                                                 RayCounter &rays) const;
     std::unique_ptr<const BlockData> prepare_block(const PassData &pass, const Rectangle &block,
                                                    RayCounter &rays) const;
 

@@ -17,8 +17,9 @@ class PathIntegrator final : public Integrator {
     }
 
     bool shares() const override { return pool_ != nullptr; }
-    std::unique_ptr<const PassData> prepare_pass(uint64_t seed, uint64_t sample, RayCounter &rays) const override {
-        return pool_->prepare_pass(seed, sample, rays);
+    std::unique_ptr<const PassData> prepare_pass(uint64_t seed, uint64_t sample, const std::atomic<bool> &stop,
+                                                 RayCounter &rays) const override {
+        return pool_->prepare_pass(seed, sample, stop, rays);
     }
     std::unique_ptr<const BlockData> prepare_block(const PassData &pass, const Rectangle &block,
                                                    RayCounter &rays) const override {

@@ -94,7 +94,8 @@ void Session::resume() {
 void Session::cancel() {
     const std::unique_lock lock(mutex_);
     if (state_ == GLIMMER_READY || state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED)
-        finish(GLIMMER_CANCELLED);
+        cancelled_ = true;
+    finish(GLIMMER_CANCELLED);
 }
 
 bool Session::wait(double seconds) {
@@ -177,7 +178,7 @@ void Session::take_pass(size_t index, std::unique_lock<std::mutex> &lock) {
     std::exception_ptr failure;
     const uint64_t cpu_start = thread_cpu_nanoseconds();
     try {
-        pass = integrator_->prepare_pass(settings_.seed, sample, rays);
+        pass = integrator_->prepare_pass(settings_.seed, sample, stop_, rays);
     } catch (...) {
         failure = std::current_exception();
     }
@@ -243,11 +244,13 @@ void Session::add_curve_point(uint64_t samples, std::unique_lock<std::mutex> &lo
         return;
     between_batches_ = true;
     lock.unlock();
-    const ErrorEstimate error = estimate_error(film_);
+    const std::optional<ErrorEstimate> error = estimate_error(film_, cancelled_);
     lock.lock();
     between_batches_ = false;
-    error_ = error;
-    curve_.push_back({elapsed(), earlier_cpu_seconds_ + double(cpu_nanoseconds_) * 1e-9, samples, error});
+    if (!error)
+        return;
+    error_ = *error;
+    curve_.push_back({elapsed(), earlier_cpu_seconds_ + double(cpu_nanoseconds_) * 1e-9, samples, *error});
 }
 
 /// Called by the worker that finished the batch's last tile, with the lock held; the others wait meanwhile.
