@@ -75,6 +75,13 @@ def glass_between_lights() -> Builder:
     return scene.sphere((0, 2, 1), 0.4, d.Glass(1.5))
 
 
+def point_over_mirror() -> Builder:
+    """What a mirror throws into the fog from a light without size is met by no path: none of it, in either picture."""
+    scene = Builder(camera((0, -4, 1), (0, 4, 0.5), 60), 32, 24, medium=d.Medium(grey(0.02), grey(0.15)))
+    scene.mesh(quad((0, 3, -0.5), (6, 0, 0), (0, 6, 0)), d.Mirror(WHITE))
+    return scene.lamp(d.PointLight("point", (0, 2, 2), grey(10)))
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -91,6 +98,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "mesh light": mesh_light_in_fog,
     "lamps": lamps_in_fog,
     "glass between lights": glass_between_lights,
+    "point over a mirror": point_over_mirror,
 }
 
 
