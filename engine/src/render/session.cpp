@@ -10,6 +10,7 @@
 #include <ctime>
 #include <immintrin.h>
 #include <limits>
+#include <system_error>
 
 namespace glimmer {
 
@@ -68,9 +69,15 @@ void Session::start() {
     plan_batch();
     if (state_ != GLIMMER_RUNNING)
         return;
-    alive_ = settings_.threads;
     for (uint32_t i = 0; i < settings_.threads; ++i)
-        workers_.emplace_back([this] { work(); });
+        try {
+            workers_.emplace_back([this] { work(); });
+            ++alive_; // they wait for the lock
+        } catch (const std::system_error &) {
+            if (workers_.empty())
+                return fail(std::current_exception());
+            break; // fewer do as well
+        }
 }
 
 void Session::pause() {
@@ -79,7 +86,7 @@ void Session::pause() {
         return;
     state_ = GLIMMER_PAUSED;
     earlier_seconds_ += now() - running_since_;
-    changed_.wait(lock, [this] { return busy_ == 0 && !between_batches_; });
+    changed_.wait(lock, [this] { return state_ != GLIMMER_PAUSED || (busy_ == 0 && !between_batches_); });
 }
 
 void Session::resume() {
@@ -224,8 +231,9 @@ void Session::take_tile(size_t tile, std::unique_lock<std::mutex> &lock) {
     if (failure)
         return fail(failure);
     if (!whole) {
-        if (state_ == GLIMMER_RUNNING)
-            finish(GLIMMER_FINISHED); // only the time limit breaks a tile off while running
+        // Only the time limit breaks a tile off before the end; paused or not, the batch cannot be completed then.
+        if (state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED)
+            finish(GLIMMER_FINISHED);
         return;
     }
     if (first < end)
