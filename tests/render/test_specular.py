@@ -4,9 +4,11 @@
 import numpy as np
 import pytest
 
+from addon.native.structs import State
 from addon.scene import description as d
+from tests.engine.library import Render, Scene
 from tests.render import closed_forms as exact
-from tests.render.build import BLACK, WHITE, Builder, box, floor, grey, quad, radiometer, sky
+from tests.render.build import BLACK, WHITE, Builder, box, camera, floor, grey, quad, radiometer, sky
 from tests.render.statistics import INTEGRATORS, Measurement, check_radiance
 
 pytestmark = pytest.mark.parametrize("integrator", INTEGRATORS)
@@ -100,3 +102,15 @@ def test_black_surfaces(integrator: str) -> None:
     """Nothing at all comes from where nothing is."""
     scene = Builder(radiometer((0, 0, 5), (0, 0, 0)), environment=sky()).mesh(floor(), d.Lambert(BLACK))
     check_radiance(Measurement(scene.done(), integrator, samples=8), 0, within=0)
+
+
+def test_total_reflection_without_end(integrator: str) -> None:
+    """Across a ball of glass far off its middle, seen from within and lit from within: nothing gets out, and every path
+    must find that out in the end."""
+    scene = Builder(camera((0, -4, 1), (0, 4, 1), 10), 4, 4, medium=d.Medium(grey(0.02), grey(0.15)))
+    scene.sphere((0.9, -4, 1), 1, d.Glass(1.5)).lamp(d.PointLight("ball", (0.9, -4, 1), WHITE, radius=0.95))
+    with Render(Scene(scene.done()), integrator=integrator, samples=1, threads=1) as render:
+        render.start()
+        render.wait(30)
+        assert render.poll().state == State.FINISHED
+        assert render.report()["biased_by"] == []

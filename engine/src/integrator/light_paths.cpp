@@ -28,7 +28,7 @@ class LightPath {
 
     void trace(const Emission &start, bool sharp, const GlassStack &around, float target) {
         target_ = target;
-        branches_.push_back({start.ray, start.power, around, sharp});
+        branches_.push_back({start.ray, start.power, around, sharp, 0});
         for (uint32_t i = 0; i < kVertexGuard && !branches_.empty(); ++i) {
             const Branch next = branches_.back();
             branches_.pop_back();
@@ -42,7 +42,8 @@ class LightPath {
         Ray ray;
         Rgb power;
         GlassStack glass;
-        bool sharp; ///< straight from a light without size
+        bool sharp;         ///< straight from a light without size
+        uint32_t chain = 0; ///< mirrors and glass in a row
     };
 
     void segment(Branch path) {
@@ -89,6 +90,7 @@ class LightPath {
         const Vec3f before = path.ray.direction;
         split(path, weight, [&](Branch &next) {
             next.sharp = false;
+            next.chain = 0;
             next.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(before, sampler_.next_2d()).direction};
             branches_.push_back(next);
         });
@@ -134,6 +136,7 @@ class LightPath {
         Vec3f direction;
         float density;
         if (bent && sampler_.next_1d() < kTrueNormal) {
+            path.chain = 0;
             direction = normalize(Frame(v.geometric).to_world(sample_cosine_hemisphere(sampler_.next_2d())));
             density = pdf(bsdf, incoming, frame.to_local(direction));
         } else {
@@ -143,7 +146,9 @@ class LightPath {
             direction = normalize(frame.to_world(s->wi));
             if (!(dot(direction, v.geometric) > 0))
                 return;
-            if (s->specular && path.sharp)
+            if (!s->specular)
+                path.chain = 0;
+            else if (path.sharp || !survives_chain(path))
                 return;
             density = s->pdf;
             if (!bent || s->specular) {
@@ -167,8 +172,16 @@ class LightPath {
         branches_.push_back(path);
     }
 
+    bool survives_chain(Branch &path) {
+        const float survival = survival_of_chain(path.chain++);
+        if (survival < 1 && sampler_.next_1d() >= survival)
+            return false;
+        path.power *= 1 / survival;
+        return true;
+    }
+
     void pass_glass(Branch &path, const Interaction &surface, const Material &material) {
-        if (path.sharp)
+        if (path.sharp || !survives_chain(path))
             return;
         const GlassCrossing crossing(surface, material, path.ray.direction, path.glass);
         const GlassSample s = sample_glass(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());

@@ -88,6 +88,7 @@ void PathSample::scatter_in_fog(const PathState &state, float end, const Homogen
                    pdf};
     ++next.depth;
     ++next.scatter;
+    next.chain = 0;
     if (state.direct_view())
         next.first = PathState::First::fog;
     ++next.order;

@@ -158,6 +158,8 @@ class PathSample {
     /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow
     /// without bound.
     bool survives(PathState &state, const Vec3f &x);
+    /// The same for one more mirror or glass.
+    bool survives_chain(PathState &state);
     void push(const PathState &state) { stack_.push_back(state); }
 
     const Scene &scene_;

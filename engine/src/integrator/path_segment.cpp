@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One segment of a path: what stands at its end, what shines on the way.
+#include "integrator/glass_crossing.h"
 #include "integrator/mis.h"
 #include "integrator/path_sample.h"
 #include "integrator/surroundings.h"
@@ -139,6 +140,15 @@ bool PathSample::survives(PathState &state, const Vec3f &x) {
     if (sampler_.next_1d() >= weight)
         return false;
     state.beta *= 1 / weight;
+    return true;
+}
+
+bool PathSample::survives_chain(PathState &state) {
+    const float survival = survival_of_chain(state.chain++);
+    if (survival < 1 && sampler_.next_1d() >= survival)
+        return false;
+    state.beta *= 1 / survival;
+    state.exempt *= 1 / survival;
     return true;
 }
 

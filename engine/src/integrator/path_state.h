@@ -39,6 +39,7 @@ struct PathState {
         fog
     } first = First::none; ///< what scattered first, specular surfaces apart
     uint32_t order = 0;    ///< vertices since then
+    uint32_t chain = 0;    ///< mirrors and glass in a row, up to here
     GlassStack glass;
 
     /// A ray from a point in the fog that the pool has already given its light, but for what bounded connections leave

@@ -50,7 +50,7 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
     if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
         return;
     state.beta *= s->weight;
-    if (!survives(state, surface.position))
+    if (!survives(state, surface.position) || (s->specular && !survives_chain(state)))
         return;
     state.ray = {surface.origin_towards(wi), wi};
     ++state.depth;
@@ -59,6 +59,7 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
         state.order += state.direct_view() ? 0 : 1;
     } else {
         state.origin = {};
+        state.chain = 0;
         state.origin.kind = DirectionOrigin::Kind::surface;
         state.origin.all_lights = all;
         state.origin.pdf = s->pdf;
@@ -117,7 +118,7 @@ void PathSample::pass_glass(PathState &state, const Interaction &surface, const 
     state.exempt *= s.weight.r;
     if (s.transmitted)
         state.glass = crossing.beyond;
-    if (!survives(state, surface.position))
+    if (!survives(state, surface.position) || !survives_chain(state))
         return;
     state.ray = {surface.origin_towards(wi), wi};
     state.origin = {};

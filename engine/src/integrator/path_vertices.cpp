@@ -38,6 +38,7 @@ void PathSample::gather(PathState &state, float scale) {
     state.origin = {};
     ++state.depth;
     ++state.scatter;
+    state.chain = 0;
     ++state.order;
     push(state);
 }
