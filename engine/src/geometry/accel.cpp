@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/accel.h"
 
+#include "math/affine.h"
+
 #include <cmath>
+#include <limits>
 
 namespace glimmer {
 
 namespace {
+
+// Embree's own limit of a coordinate. Debian's build asserts it for every ray, also in an instance's space, and a
+// failed assertion ends the whole process, Blender with it.
+constexpr float kMostCoordinate = 1.844e18f;
+constexpr double kLeastVolume = 0x1p-20; // of the rows' lengths' product; below, Embree's float32 inverse is noise
 
 struct Context {
     RTCIntersectContext embree; // first: Embree hands back a pointer to it
@@ -78,8 +86,33 @@ RTCRay embree_ray(const Ray &ray) {
 
 } // namespace
 
+float Instance::reach() const {
+    Linear l;
+    for (size_t r = 0; r < 3; ++r)
+        l.rows[r] = Vec3d(linear[r]);
+    const double determinant = std::abs(l.determinant());
+    const Linear cofactor = l.cofactor();
+    double inverse = 0, largest = 0; // the largest sums of a row, of the inverse and of what it is made from
+    for (int c = 0; c < 3; ++c) {
+        const Vec3d column = cofactor.column(c);
+        const double sum = std::abs(column.x) + std::abs(column.y) + std::abs(column.z);
+        largest = std::max(largest, sum);
+        inverse = std::max(inverse, sum / determinant);
+    }
+    constexpr double most = double(std::numeric_limits<float>::max()),
+                     least = double(std::numeric_limits<float>::min());
+    const bool invertible = determinant > kLeastVolume * length(l.rows[0]) * length(l.rows[1]) * length(l.rows[2]) &&
+                            determinant >= least && determinant <= most && largest <= most;
+    const double local = 0.25 * double(kMostCoordinate) / inverse - double(max_abs(translation));
+    if (!invertible || !(local > 0) || !(inverse <= 1e12)) // 1e12 alone leaves rays little of the world
+        return 0;
+    return float(std::min(local, 0.5 * double(kMostCoordinate)));
+}
+
 Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres)
-    : instances_(std::move(instances)), spheres_(std::move(spheres)) {
+    : instances_(std::move(instances)), spheres_(std::move(spheres)), reach_(kMostCoordinate) {
+    for (const Instance &instance : instances_)
+        reach_ = std::min(reach_, instance.reach());
     const Embree &e = embree();
     scene_ = e.rtcNewScene(e.device);
     e.rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
@@ -123,7 +156,15 @@ Accel::~Accel() {
     embree().rtcReleaseScene(scene_);
 }
 
+bool Accel::can_trace(const Ray &ray) const {
+    const Vec3f &o = ray.origin, &d = ray.direction; // written so that NaN fails
+    return std::abs(o.x) <= reach_ && std::abs(o.y) <= reach_ && std::abs(o.z) <= reach_ && std::abs(d.x) <= 2 &&
+           std::abs(d.y) <= 2 && std::abs(d.z) <= 2 && !std::isnan(ray.t_max);
+}
+
 std::optional<Hit> Accel::intersect(const Ray &ray) const {
+    if (!can_trace(ray))
+        return std::nullopt;
     RTCRayHit query{};
     query.ray = embree_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -144,6 +185,8 @@ std::optional<Hit> Accel::intersect(const Ray &ray) const {
 }
 
 bool Accel::occluded(const Ray &ray, uint32_t ignored_sphere) const {
+    if (!can_trace(ray))
+        return false;
     RTCRay query = embree_ray(ray);
     Context context{};
     rtcInitIntersectContext(&context.embree);

@@ -27,6 +27,9 @@ struct Instance {
     Vec3f to_world(const Vec3f &v) const {
         return Vec3f(dot(linear[0], v), dot(linear[1], v), dot(linear[2], v)) + translation;
     }
+    /// How far from the scene's origin a ray may start for Embree to carry it into the mesh's own space; 0 when it
+    /// cannot be carried there at all, so flat or so tiny is the instance, or so far away.
+    float reach() const;
 };
 
 class Accel {
@@ -37,6 +40,7 @@ class Accel {
     Accel(const Accel &) = delete;
     Accel &operator=(const Accel &) = delete;
 
+    /// A ray that is not finite, or starts beyond what every instance can be reached from, meets nothing.
     std::optional<Hit> intersect(const Ray &ray) const;
     /// Whether anything stands before t_max. `ignored_sphere` is looked through (the light a shadow ray aims at).
     bool occluded(const Ray &ray, uint32_t ignored_sphere = kNone) const;
@@ -45,8 +49,11 @@ class Accel {
     const std::vector<Sphere> &spheres() const { return spheres_; }
 
   private:
+    bool can_trace(const Ray &ray) const;
+
     std::vector<Instance> instances_;
     std::vector<Sphere> spheres_;
+    float reach_;
     RTCScene scene_ = nullptr;
 };
 

@@ -74,7 +74,7 @@ void SceneBuilder::build_geometry() {
             Linear cofactor = a.linear.cofactor();
             const double scale =
                 std::max({max_abs(cofactor.rows[0]), max_abs(cofactor.rows[1]), max_abs(cofactor.rows[2])});
-            if (!(std::abs(a.linear.determinant()) > 0) || !std::isfinite(scale)) {
+            if (!(std::abs(a.linear.determinant()) > 0) || !std::isfinite(scale) || instance.reach() == 0) {
                 ++flat; // no volume to enter and no inverse for the ray: as good as not there
                 continue;
             }
@@ -93,7 +93,7 @@ void SceneBuilder::build_geometry() {
         scene_.meshes_.push_back(std::move(mesh));
     }
     if (flat)
-        scene_.warnings.push_back(std::to_string(flat) + " instance(s) of zero scale were left out");
+        scene_.warnings.push_back(std::to_string(flat) + " instance(s) of zero scale, or nearly, were left out");
 
     std::vector<Sphere> spheres;
     for (const SpheresDescription &group : description_.spheres) {
