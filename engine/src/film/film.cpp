@@ -43,7 +43,7 @@ PixelEstimate estimate_pixel(const Replicates &sums, uint64_t n) {
         const double mean = n ? total / double(n) : 0;
         e.mean[c] = float(mean);
         if (used < 2) {
-            e.variance[c] = std::numeric_limits<float>::quiet_NaN();
+            e.standard_error[c] = std::numeric_limits<float>::quiet_NaN();
             continue;
         }
         double spread = 0;
@@ -51,7 +51,7 @@ PixelEstimate estimate_pixel(const Replicates &sums, uint64_t n) {
             const double count = double(replicate_samples(n, r)), d = double(sums[r][c]) / count - mean;
             spread += count * d * d;
         }
-        e.variance[c] = float(spread / (double(used - 1) * double(n)));
+        e.standard_error[c] = float(std::sqrt(spread / (double(used - 1) * double(n))));
     }
     return e;
 }
@@ -136,9 +136,8 @@ void Film::read(glimmer_pass pass, const Rectangle &where, float *pixels) const 
                     break;
                 }
                 case GLIMMER_PASS_STDERR: {
-                    const Rgb variance = estimate_pixel(radiance_[pixel], n).variance;
-                    for (int c = 0; c < 3; ++c)
-                        out[c] = std::sqrt(variance[c]);
+                    const Rgb error = estimate_pixel(radiance_[pixel], n).standard_error;
+                    out[0] = error.r, out[1] = error.g, out[2] = error.b;
                     break;
                 }
                 case GLIMMER_PASS_SAMPLE_COUNT:

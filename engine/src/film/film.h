@@ -23,10 +23,10 @@ constexpr uint64_t replicate_samples(uint64_t n, uint32_t r) {
     return (n + kReplicates - 1 - r) / kReplicates;
 }
 
-/// Mean and variance of the mean of one pixel.
+/// Mean of one pixel, and its standard error (a variance would leave the range of float long before the radiance does).
 struct PixelEstimate {
     Rgb mean;
-    Rgb variance; ///< of the mean; NaN below 2 samples
+    Rgb standard_error; ///< of the mean; NaN below 2 samples
 };
 
 using Replicates = std::array<Rgb, kReplicates>;
@@ -75,8 +75,8 @@ class Film {
     std::vector<float> hits_;                                 ///< samples with a depth
 };
 
-/// Mean and variance of replicate sums after n samples. Var(mean) = sum_r n_r (m_r - m)^2 / ((R - 1) n), unbiased when
-/// samples of one pixel are independent and their replicates hold n_r of them.
+/// Mean and standard error of replicate sums after n samples. Var(mean) = sum_r n_r (m_r - m)^2 / ((R - 1) n), unbiased
+/// when samples of one pixel are independent and their replicates hold n_r of them.
 PixelEstimate estimate_pixel(const Replicates &sums, uint64_t n);
 
 class Film::Tile {
