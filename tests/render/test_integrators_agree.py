@@ -82,6 +82,13 @@ def point_over_mirror() -> Builder:
     return scene.lamp(d.PointLight("point", (0, 2, 2), grey(10)))
 
 
+def channels_apart() -> Builder:
+    """One channel not at all, one thin, one thick: the thin one decides how far a segment matters."""
+    medium = d.Medium((0, 0.001, 1), (0, 0.02, 9))
+    scene = Builder(camera((0, -4, 1), (0, 4, 3.5), 20), 16, 16, medium=medium)
+    return scene.sphere((0, 3, 1), 0.5, d.Light((8, 5, 3)))
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -97,6 +104,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
     "lamps": lamps_in_fog,
+    "channels far apart": channels_apart,
     "glass between lights": glass_between_lights,
     "point over a mirror": point_over_mirror,
 }

@@ -218,9 +218,13 @@ Rgb connection_factor(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction)
 CameraImportance::CameraImportance(const Scene &scene, std::vector<Vec3f> points) : points_(std::move(points)) {
     if (!scene.medium)
         return;
-    const float sigma_t = max_component(scene.medium->sigma_t), sigma_s = max_component(scene.medium->sigma_s);
-    kappa_ = std::sqrt(3 * std::max(1 - sigma_s / sigma_t, 0.0f)) * sigma_t;
-    soften_ = 0.25f / (sigma_t * sigma_t);
+    soften_ = 0.25f / (max_component(scene.medium->sigma_t) * max_component(scene.medium->sigma_t));
+    kappa_ = kInfinity; // of the channel that carries light furthest
+    for (int c = 0; c < 3; ++c)
+        if (const float t = scene.medium->sigma_t[c], s = scene.medium->sigma_s[c]; s > 0)
+            kappa_ = std::min(kappa_, std::sqrt(3 * std::max(1 - s / t, 0.0f)) * t);
+    if (!(kappa_ < kInfinity))
+        kappa_ = 0;
 }
 
 float CameraImportance::operator()(const Vec3f &x) const {

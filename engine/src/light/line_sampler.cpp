@@ -22,8 +22,12 @@ LineSampler::LineSampler(const Homogeneous &medium, const Vec3f &origin, const V
     h_ = std::sqrt(h2 + 0.25 * r * r + 1e-12 * distance * distance + 1e-30);
 
     // The path by way of t is at least t - a + |x(t) - c|, which is shortest at t = 0 and grows by at most 2 t.
-    const double sigma = double(std::min(medium.sigma_t.r, std::min(medium.sigma_t.g, medium.sigma_t.b)));
-    const double sigma_tail = sigma > 0 ? sigma : double(max_component(medium.sigma_t));
+    // The channel that goes on longest decides, of those that scatter at all.
+    float least = kInfinity;
+    for (int c = 0; c < 3; ++c)
+        if (medium.sigma_s[c] > 0)
+            least = std::min(least, medium.sigma_t[c]);
+    const double sigma_tail = least < kInfinity ? double(least) : 0;
     double cut = std::isfinite(t_max) ? double(t_max) : kInfinity;
     if (sigma_tail > 0) {
         // t + |c - o - t d| = distance + reach has one root t >= 0 (an ellipse about origin and centre).
