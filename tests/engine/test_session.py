@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders under way: polling, tiles, pausing, cancelling, reading, limits."""
 
+import itertools
 import os
 import statistics
 import threading
@@ -58,7 +59,7 @@ def test_poll_only_grows(integrator: str) -> None:
             seen.append(render.poll())
         render.wait()
         seen.append(render.poll())
-    for a, b in zip(seen[:-1], seen[1:], strict=True):
+    for a, b in itertools.pairwise(seen):
         for name in ("samples", "fraction", "seconds", "cpu_seconds", "rays", "version", "state"):
             assert getattr(b, name) >= getattr(a, name), name
         assert 0 <= b.fraction <= 1
