@@ -100,9 +100,10 @@ void Session::resume() {
 
 void Session::cancel() {
     const std::unique_lock lock(mutex_);
-    if (state_ == GLIMMER_READY || state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED)
+    if (state_ == GLIMMER_READY || state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED) {
         cancelled_ = true;
-    finish(GLIMMER_CANCELLED);
+        finish(GLIMMER_CANCELLED);
+    }
 }
 
 bool Session::wait(double seconds) {
