@@ -87,7 +87,7 @@ class Session {
     std::exception_ptr failure_;
     Batch batch_;
     bool between_batches_ = false;
-    uint32_t busy_ = 0, alive_ = 0; ///< workers within a tile; workers
+    uint32_t busy_ = 0, alive_ = 0;                    ///< workers within a tile; workers
     std::atomic<bool> stop_{false}, cancelled_{false}; ///< ended; ended in a hurry
     std::atomic<uint64_t> rays_{0}, cpu_nanoseconds_{0}, version_{0};
     uint64_t samples_ = 0; ///< every pixel has them
