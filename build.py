@@ -324,6 +324,20 @@ def lint() -> None:
         raise BuildError("lint found faults, printed above: " + "; ".join(failures))
 
 
+def bench(blender: str | None, quick: bool, cycles: bool, output: Path | None) -> None:
+    executable = setup(blender, ("build", "render", "test"))
+    if executable is None:
+        raise BuildError("the benchmark needs a Blender: it exports the scenes, and Cycles runs in it")
+    build()
+    options = [*(["--quick"] if quick else []), *([] if cycles else ["--no-cycles"])]
+    said = ["python3", "build.py", "bench", *options]
+    if output is not None:
+        said += ["--output", str(output.relative_to(ROOT) if output.is_relative_to(ROOT) else output.name)]
+    command: list[str | Path] = [virtual_environment("bench"), "-m", "tests.bench", *options]
+    command += ["--glimmer", COMMAND, "--blender", executable, "--output", output or BUILD / "bench"]
+    run([*command, "--said", " ".join(said)], env=host_environment(BUILD / "profile", executable))
+
+
 def addon_version() -> str:
     found = re.search(r'^version\s*=\s*"([^"]+)"', (ADDON / "blender_manifest.toml").read_text(), re.MULTILINE)
     if not found:
@@ -397,6 +411,12 @@ def arguments() -> argparse.ArgumentParser:
     item = command("test", "Run the test suite.", blender=True)
     item.add_argument("--full", action="store_true", help="also the long tests, marked `full`")
     item.add_argument("extra", nargs="*", metavar="-- ARGUMENT", help="handed to pytest, as in `test -- -k sphere`")
+    item = command("bench", "Measure error against run time, ours and Cycles', and write a page on it.", blender=True)
+    item.add_argument("--quick", action="store_true", help="a smaller picture and fewer repetitions")
+    item.add_argument("--no-cycles", action="store_true", help="Glimmer's integrators alone")
+    item.add_argument(
+        "-o", "--output", type=Path, metavar="FOLDER", help="for the page and its plot (default: build/bench)"
+    )
     command("lint", "Check style, types and compiler warnings: ruff, mypy, clang-format, -Werror.")
     command("package", "Make the add-on's zip, with the library inside; prints its path.")
     command("clean", "Remove build/.")
@@ -427,6 +447,9 @@ def main(argv: Sequence[str]) -> int:
             )
         elif given.command == "test":
             test(given.blender, given.full, given.extra)
+        elif given.command == "bench":
+            output = given.output.absolute() if given.output else None
+            bench(given.blender, given.quick, not given.no_cycles, output)
         elif given.command == "lint":
             lint()
         elif given.command == "package":

@@ -35,7 +35,7 @@ def test_imports_nothing_but_the_standard_library() -> None:
 
 def test_help_names_every_command() -> None:
     text = build_py("--help").stdout
-    for command in ("setup", "build", "render", "test", "lint", "package", "clean"):
+    for command in ("setup", "build", "render", "test", "bench", "lint", "package", "clean"):
         assert re.search(rf"^ +{command} ", text, re.MULTILINE), command
         assert build_py(command, "--help").stdout.startswith(f"usage: build.py {command}")
 
@@ -141,7 +141,7 @@ def test_a_virtual_environment_is_made_once_per_requirements(
     assert len(calls) == 4
 
 
-@pytest.mark.parametrize("name", ["test", "bpy"])
+@pytest.mark.parametrize("name", ["test", "bpy", "bench"])
 def test_requirements_are_pinned(name: str) -> None:
     lines = (build.REQUIREMENTS / f"{name}.txt").read_text().splitlines()
     pins = [line for line in lines if line and not line.startswith("#")]
