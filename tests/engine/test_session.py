@@ -151,7 +151,7 @@ def test_pause_really_pauses(integrator: str) -> None:
         render.wait(0.05)  # a paused render has not ended
         assert render.state == State.PAUSED
         render.resume()
-        assert render.state == State.RUNNING
+        assert render.poll().state == State.RUNNING
         end = time.monotonic() + 30
         while render.poll().version == before.version:
             assert time.monotonic() < end, "did not go on"
@@ -181,7 +181,7 @@ def test_cancel_within_100_ms(integrator: str) -> None:
             render.cancel()
             render.wait()
             waits.append(time.monotonic() - start)
-            assert render.state == State.CANCELLED
+            assert render.poll().state == State.CANCELLED
     assert statistics.median(waits) < 0.1, sorted(waits)
 
 
