@@ -142,7 +142,7 @@ def main(what: str, path: str) -> None:
         return
     results: dict[str, dict[str, Any]] = {}
     for script in sorted(SCENES.glob("*.py")):
-        if script.stem == "stage":
+        if script.stem in ("stage", "render_blend"):  # what the builders share; what `build.py render` runs
             continue
         result = results.setdefault(script.stem, {})
         if what == "compare":
