@@ -2,17 +2,19 @@
 """The benchmark's arithmetic: errors, the check of means, times, and that it refuses to rank different pictures."""
 
 import math
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy import stats
 
+import build
 from tests.bench import errors
-from tests.bench.__main__ import FULL, QUICK, Plan, cycles_runs, tasks
+from tests.bench.__main__ import FULL, QUICK, Plan, cycles_runs, measure, tasks
 from tests.bench.errors import Agreement, Picture, Point, Run
-from tests.bench.renderers import FromBlender
-from tests.bench.report import LEVEL, Entry, SceneResult, Setting, markdown
+from tests.bench.renderers import FromBlender, Glimmer
+from tests.bench.report import LEVEL, Entry, SceneResult, Setting, agrees, markdown
 
 RNG = np.random.default_rng(20261122)
 SHAPE = (24, 36, 3)
@@ -128,3 +130,23 @@ def test_set_up_is_subtracted() -> None:
     rows, set_up = cycles_runs(FromBlender(Path("scene.json"), "1", every), QUICK)
     assert set_up == pytest.approx(3.0)
     assert [[item.cpu for item in row] for row in rows] == [pytest.approx([0.25 * n for n in levels])] * len(rows)
+
+
+@pytest.mark.parametrize("with_cycles", [True, False])
+def test_a_scene_is_measured(
+    with_cycles: bool, glimmer_command: Path, blender: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Small, from the .blend to the page. The seeds are fixed; of all seeds, one in a thousand would fail."""
+    for name, value in build.host_environment(tmp_path / "profile", blender).items():
+        if os.environ.get(name) != value:
+            monkeypatch.setenv(name, value)
+    plan = Plan((32, 18), {"path": (1, 4), "report": (1, 4), "Cycles": (2, 64)}, 4, 16, 6)
+    folder = tmp_path / "pictures"
+    result, version = measure("moons_in_fog", plan, Glimmer(glimmer_command), blender, with_cycles, folder)
+    assert list(result.entries) == ["path", "report", *(["Cycles"] if with_cycles else [])]
+    assert version[0].isdigit()
+    for name, entry in result.entries.items():
+        assert [[point.samples for point in row] for row in entry.points] == [list(plan.levels[name])] * 4
+        assert all(point.cpu > 0 for row in entry.points for point in row), name
+        assert agrees(entry, [result]), (name, entry.agreement)
+    assert "| moons_in_fog | path |" in markdown([result], SETTING)

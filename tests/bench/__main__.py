@@ -75,8 +75,10 @@ def cycles_runs(told: FromBlender, plan: Plan) -> tuple[list[list[Run]], float]:
     return [without_set_up(row, set_up) for row in rows], set_up
 
 
-def measure(name: str, plan: Plan, glimmer: Glimmer, blender: Path, with_cycles: bool) -> tuple[SceneResult, str]:
-    folder = ROOT / "build" / "bench" / name
+def measure(
+    name: str, plan: Plan, glimmer: Glimmer, blender: Path, with_cycles: bool, folder: Path
+) -> tuple[SceneResult, str]:
+    """The result and Blender's version. Leaves the scene, the pictures and their reports in `folder`."""
     shutil.rmtree(folder, ignore_errors=True)
     wanted: list[Task] = []
     if with_cycles:
@@ -135,7 +137,8 @@ def main(argv: Sequence[str]) -> int:
     results, version = [], ""
     try:
         for name in SCENES:
-            result, version = measure(name, plan, glimmer, given.blender, not given.no_cycles)
+            folder = ROOT / "build" / "bench" / name
+            result, version = measure(name, plan, glimmer, given.blender, not given.no_cycles, folder)
             results.append(result)
     except BenchError as error:
         sys.stderr.write(f"bench: {error}\n")
