@@ -130,7 +130,8 @@ Options parse_options(int argc, char **argv) {
     }
 
     RenderOptions options;
-    std::string scene, output, spp, time, error, integrator, seed, threads, tile, aov, checkpoint, report, curve;
+    std::string scene, output, spp, time, error, integrator, seed, threads, tile, aov, checkpoint, interval, report,
+        curve;
     bool version = false, list_integrators = false, list_aovs = false;
     CLI::App app("Renders a scene file. \"glimmer merge --help\" tells how to join pictures.", "glimmer");
     app.add_option("SCENE", scene, "the scene file (.json)");
@@ -145,6 +146,7 @@ Options parse_options(int argc, char **argv) {
     app.add_option("--aov", aov, "extra layers of the .exr, separated by commas; see --list-aovs")
         ->type_name("NAME,...");
     app.add_option("--checkpoint", checkpoint, "go on from FILE if it is there; keep it up to date")->type_name("FILE");
+    app.add_option("--checkpoint-interval", interval, "save to it this often (default 30)")->type_name("SECONDS");
     app.add_option("--report", report, "JSON with times, error, curve, warnings")->type_name("OUT.json");
     app.add_option("--curve", curve, "error against run time, as a table or a plot")->type_name("OUT.csv|.png");
     app.add_flag("--quiet", options.quiet, "no progress on the standard error");
@@ -198,6 +200,11 @@ Options parse_options(int argc, char **argv) {
         return path;
     };
     options.checkpoint = file_option("--checkpoint", checkpoint, {});
+    if (given("--checkpoint-interval")) {
+        if (!options.checkpoint)
+            throw InputError("--checkpoint-interval: there is no --checkpoint FILE to save to");
+        options.checkpoint_seconds = positive_option("--checkpoint-interval", interval);
+    }
     options.report = file_option("--report", report, {".json"});
     options.curve = file_option("--curve", curve, {".csv", ".png"});
     expect_different_files(options);

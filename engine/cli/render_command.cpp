@@ -19,7 +19,6 @@
 namespace glimmer {
 namespace {
 
-constexpr auto kCheckpointInterval = std::chrono::seconds(30);
 constexpr double kPollSeconds = 0.05;
 constexpr double kNoLimit = -1;
 
@@ -59,20 +58,20 @@ bool ended(const glimmer_progress &progress) {
 
 /// Waits for the end while it shows the progress, saves checkpoints and listens for SIGINT.
 void follow(glimmer_render *render, const RenderOptions &options, const std::string &scene_hash, ProgressLine &line) {
-    auto next_checkpoint = Clock::now() + kCheckpointInterval;
+    Clock::time_point last_checkpoint = Clock::now();
     for (glimmer_progress progress = poll(render); !ended(progress); progress = poll(render)) {
         line.update(progress);
         if (interrupted()) {
             check(glimmer_render_cancel(render), "render");
             break;
         }
-        if (options.checkpoint && Clock::now() >= next_checkpoint) {
+        if (options.checkpoint && seconds_since(last_checkpoint) >= options.checkpoint_seconds) {
             check(glimmer_render_pause(render), "render");
             if (!ended(poll(render))) {
                 save_checkpoint(*options.checkpoint, scene_hash, render);
                 check(glimmer_render_resume(render), "render");
             }
-            next_checkpoint = Clock::now() + kCheckpointInterval;
+            last_checkpoint = Clock::now();
         }
         check(glimmer_render_wait(render, kPollSeconds), "render");
     }

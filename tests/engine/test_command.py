@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy import stats
 
 from tests.engine import scenes
 from tests.engine.scenes import (
@@ -29,6 +30,7 @@ from tests.engine.scenes import (
     run_glimmer,
     write_scene,
 )
+from tests.engine.significance import LEVEL
 
 pytestmark = pytest.mark.usefixtures("glimmer_command")
 
@@ -75,6 +77,14 @@ def same_bits(a: Exr, b: Exr) -> bool:
         (["scene.json", "-o", "out.exr", "--report", "r.txt"], '--report: "r.txt" does not end in .json'),
         (["scene.json", "-o", "out.exr", "--curve", "c.pdf"], '--curve: "c.pdf" does not end in .csv or .png'),
         (["scene.json", "-o", "out.exr", "--checkpoint", "x/c"], '--checkpoint: "x/c": no such folder'),
+        (
+            ["scene.json", "-o", "out.exr", "--checkpoint-interval", "5"],
+            "--checkpoint-interval: there is no --checkpoint FILE to save to",
+        ),
+        (
+            ["scene.json", "-o", "out.exr", "--checkpoint", "c", "--checkpoint-interval", "0"],
+            '--checkpoint-interval: "0" is not a number above 0',
+        ),
         (["scene.json", "-o", "a.png", "--curve", "./a.png"], 'glimmer: "./a.png" is named twice'),
         (["scene.json", "-o", "out.exr", "--report", "scene.json"], 'glimmer: "scene.json" is named twice'),
         (["gone.json", "-o", "out.exr"], "gone.json: no such file"),
@@ -102,7 +112,8 @@ def test_information() -> None:
     version = run_glimmer("--version")
     assert version.returncode == 0 and re.fullmatch(r"glimmer \d+\.\d+\.\d+\n", version.stdout)
     usage = run_glimmer("--help")
-    options = "--spp --time --error --integrator --seed --threads --tile --aov --checkpoint --report --curve --quiet"
+    options = "--spp --time --error --integrator --seed --threads --tile --aov --checkpoint --checkpoint-interval"
+    options += " --report --curve --quiet"
     assert usage.returncode == 0 and all(option in usage.stdout for option in options.split())
     assert "PICTURE" in run_glimmer("merge", "--help").stdout
     integrators = run_glimmer("--list-integrators").stdout.splitlines()
@@ -397,25 +408,47 @@ def test_resumed_after_interruption(tmp_path: Path) -> None:
     assert same_bits(resumed, render(tmp_path, hazy_moon(), "--spp", samples, name="whole"))
 
 
-@pytest.mark.full
-def test_checkpoint_survives_a_kill(tmp_path: Path) -> None:
-    """Saved every 30 seconds, in the middle of the render, without a word from anyone."""
-    state = tmp_path / "state"
-    process = start_endless(tmp_path, "--checkpoint", state)
-    for _ in range(60):
-        time.sleep(1)
-        if state.exists():
+@pytest.mark.parametrize("fog", ["forward", "even"])
+def test_checkpoint_survives_kills(fog: str, tmp_path: Path) -> None:
+    """Killed at random moments, also while it saves, and taken up again and again: the bits of a render that nobody
+    disturbed. Even fog shares light vertices between pixels."""
+    content = scenes.changed(hazy_moon(), ("medium", "g"), 0.3 if fog == "forward" else 0)
+    samples = 1500 if fog == "forward" else 600
+    whole = render(tmp_path, content, "--spp", samples, name="whole")
+    scene, state, output = tmp_path / "whole.json", tmp_path / "state", tmp_path / "out.exr"
+    options = ["--spp", samples, "--tile", 8, "--checkpoint", state, "--checkpoint-interval", 0.01, "--quiet"]
+    command = [os.environ["GLIMMER_BIN"], *map(str, [scene, "-o", output, *options])]
+    rng = np.random.default_rng(11)
+    kills = 0
+    for _ in range(6):
+        before = state.read_bytes() if state.exists() else b""
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not (state.exists() and state.read_bytes() != before):
+            time.sleep(0.005)
+        time.sleep(rng.uniform(0, 0.1))
+        process.kill()
+        if process.wait(30) == 0:
             break
-    process.kill()
-    process.communicate(timeout=30)
-    assert state.exists() and not (tmp_path / "out.exr").exists()
-    path = write_scene(tmp_path, hazy_moon())
-    told = run_glimmer(path, "-o", tmp_path / "first.exr", "--checkpoint", state, "--time", 0.001)
-    samples = re.search(r"going on from (\d+) spp", told.stderr)
-    assert samples is not None and int(samples[1]) > 100, told.stderr
-    total = read_exr(tmp_path / "first.exr").attributes["glimmer:spp"] + 5
-    resumed = render(tmp_path, hazy_moon(), "--spp", total, "--checkpoint", state, name="resumed")
-    assert same_bits(resumed, render(tmp_path, hazy_moon(), "--spp", total, name="whole"))
+        kills += 1
+        assert not output.exists(), "a picture before the end"
+    assert kills >= 3, "it ended too soon: nothing was tested"
+    done = run_glimmer(*command[1:])
+    assert done.returncode == 0, done.stderr
+    assert same_bits(read_exr(output), whole)
+
+
+def test_checkpoint_interval(tmp_path: Path) -> None:
+    """Saved again and again in the middle of the render, without a word from anyone; and never too early."""
+    state = tmp_path / "state"
+    for interval, saves in ((0.1, True), (1000, False)):
+        process = start_endless(tmp_path, "--checkpoint", state, "--checkpoint-interval", interval)
+        if saves:
+            seen = {state.stat().st_mtime_ns for _ in range(40) if not time.sleep(0.05)}
+            assert len(seen) >= 3
+        assert state.exists() == saves
+        process.kill()
+        process.communicate(timeout=30)
+        state.unlink(missing_ok=True)
 
 
 def test_finished_checkpoint_is_the_picture(tmp_path: Path) -> None:
@@ -504,6 +537,28 @@ def test_merge_arithmetic(tmp_path: Path) -> None:
     seconds = sum(part.attributes["glimmer:seconds"] for part in parts.values())
     assert attributes["glimmer:seconds"] == pytest.approx(seconds, rel=1e-5)
     assert attributes["glimmer:scene"] == parts["a"].attributes["glimmer:scene"]
+
+
+def test_merged_standard_error_is_that_of_the_merged_mean(tmp_path: Path) -> None:
+    """Half the squared difference of two merged pictures of disjoint seeds is an unbiased estimate of the variance of
+    one; so are their own squared standard errors. Their difference, summed over pixels, has mean 0 whatever the
+    pixels share: Student's t over independent pairs, whose parts have unequal numbers of samples."""
+    pairs, seed = [], 0
+    for _ in range(8):
+        means, variances = [], []
+        for _ in range(2):
+            for name, samples in (("a", 4), ("b", 12)):
+                render(tmp_path, hazy_moon(), "--spp", samples, "--seed", seed, "--threads", 1, name=name)
+                seed += 1
+            assert merge(tmp_path, "a", "b").returncode == 0
+            merged = read_exr(tmp_path / "merged.exr")
+            means.append(merged.rgb.astype(np.float64))
+            variances.append(merged.layer("stderr").astype(np.float64) ** 2)
+        pairs.append((((means[0] - means[1]) ** 2 / 2).sum(), ((variances[0] + variances[1]) / 2).sum()))
+    found, claimed = np.array(pairs).T
+    p = stats.ttest_1samp(found - claimed, 0).pvalue
+    ratio = claimed.sum() / found.sum()
+    assert p >= LEVEL, f"the claimed variance is {ratio:.3f} of the true one, p = {p:.2g}"
 
 
 def test_merged_picture_can_be_merged(tmp_path: Path) -> None:
