@@ -176,6 +176,8 @@ def virtual_environment(name: str) -> Path:
     digest = hashlib.sha256(requirements.read_bytes() + bytes(folder)).hexdigest()
     if stamp.exists() and stamp.read_text() == digest:
         return python
+    if folder.is_symlink():  # another checkout's, which venv --clear would empty
+        folder.unlink()
     say(f"Making the virtual environment {folder.relative_to(ROOT)}")
     run([python_311(), "-m", "venv", "--clear", folder])
     run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input", "-r", requirements])
