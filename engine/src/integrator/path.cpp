@@ -35,7 +35,11 @@ class PathIntegrator final : public Integrator {
             .run(state);
     }
 
-    std::string kernel() const override { return pool_ ? "path with shared light vertices" : "path"; }
+    std::string kernel() const override {
+        if (options_ == kReportOptions)
+            return "report";
+        return pool_ ? "path with shared light vertices" : "path";
+    }
 
   private:
     const Scene &scene_;

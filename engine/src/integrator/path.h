@@ -17,6 +17,8 @@ struct PathOptions {
     bool deep_line_lights = true; ///< the same for all later segments
     bool light_vertices =
         true; ///< light scattered more than once comes from vertices shared by all pixels; else from paths alone
+
+    bool operator==(const PathOptions &) const = default;
 };
 
 /// The student report's method, kept as a yardstick: one light, exponential free flights, balance heuristic.
