@@ -172,6 +172,8 @@ void Film::load(const uint8_t *&data, const uint8_t *end) {
     take(data, end, head, 4);
     if (head[0] != width_ || head[1] != height_ || head[2] != tile_size_ || head[3] != passes_)
         fail_argument("the saved state is of another picture size, tile size or set of passes");
+    if (size_t(end - data) != tiles_.size() * sizeof(uint64_t) + bytes())
+        fail_argument("the saved state is damaged or ends too early");
     for (size_t i = 0; i < tiles_.size(); ++i) {
         uint64_t n;
         take(data, end, &n, 1);

@@ -58,7 +58,7 @@ class Film {
 
     /// Raw state for checkpoints, appended to and taken from a byte stream; between batches only.
     void save(std::vector<uint8_t> &out) const;
-    /// Throws Error when the state is of another film.
+    /// Throws Error when the state is of another film or does not end at `end`; the film is then as it was.
     void load(const uint8_t *&data, const uint8_t *end);
 
   private:

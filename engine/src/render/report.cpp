@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report of a render as JSON, and its state as bytes.
-#include "api/error.h"
-#include "film/bytes.h"
+// The report of a render as JSON.
 #include "render/session.h"
 
 #include <algorithm>
@@ -39,8 +37,6 @@ std::string list(const std::vector<std::string> &items) {
         out += (out.empty() ? "" : ", ") + quoted(s);
     return "[" + out + "]";
 }
-
-constexpr uint64_t kStateMagic = 0x31304d494c47u; // "GLIM01"
 
 } // namespace
 
@@ -87,48 +83,6 @@ std::string Session::report_json() {
     out += ", \"left_out\": " + list(scene_->left_out);
     out += ", \"warnings\": " + list(scene_->warnings);
     return out + "}";
-}
-
-std::vector<uint8_t> Session::save() {
-    std::unique_lock lock(mutex_);
-    if (state_ == GLIMMER_RUNNING || busy_ || between_batches_)
-        fail_state("a running render cannot be saved; pause it first");
-    const uint64_t head[6] = {kStateMagic, settings_.seed, settings_.integrator,
-                              rays_,       invalid_count_, uint64_t(curve_.size())};
-    const double times[2] = {elapsed(), earlier_cpu_seconds_ + double(cpu_nanoseconds_) * 1e-9};
-    std::vector<uint8_t> out;
-    append(out, head, 6);
-    append(out, times, 2);
-    append(out, curve_.data(), curve_.size());
-    film_.save(out);
-    return out;
-}
-
-void Session::load(const uint8_t *data, size_t size) {
-    const std::lock_guard lock(mutex_);
-    if (state_ != GLIMMER_READY)
-        fail_state("a saved state can only be loaded before the render starts");
-    uint64_t head[6];
-    double times[2];
-    const uint8_t *at = data, *end = data + size;
-    take(at, end, head, 6);
-    take(at, end, times, 2);
-    if (head[0] != kStateMagic)
-        fail_argument("this is not a saved state of a render");
-    if (head[1] != settings_.seed || head[2] != settings_.integrator)
-        fail_argument("the saved state is of another seed or integrator");
-    if (head[5] > 64) // one a doubling
-        fail_argument("the saved state is damaged");
-    std::vector<CurvePoint> curve(head[5], CurvePoint{});
-    take(at, end, curve.data(), curve.size());
-    film_.load(at, end);
-    curve_ = std::move(curve);
-    rays_ = head[3];
-    invalid_count_ = head[4];
-    earlier_seconds_ = times[0];
-    earlier_cpu_seconds_ = times[1];
-    if (!curve_.empty())
-        error_ = curve_.back().error;
 }
 
 } // namespace glimmer
