@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's side of a render: `update` reads the scene, `render` hands pixels over. Neither does more than that.
+"""Blender's side of a render: `update` reads the scene, `render` hands pixels over, `view_draw` shows a 3D view. None
+does more than that.
 
-Blender calls both once for every view layer, on one instance. An exception out of either crashes Blender where no
-result was begun, so nothing escapes from here.
+Blender calls the first two once for every view layer, on one instance. An exception out of either crashes Blender
+where no result was begun, so nothing escapes from here.
 """
 
-import traceback
 from typing import Any
 
 import bpy
 
 from . import failure, jobs
 from .film import passes
-from .scene.problems import GlimmerError
+from .scene.problems import describe
+from .viewport import redraw
+from .viewport.view import RenderedView
 
 
 class GlimmerRenderEngine(bpy.types.RenderEngine):
@@ -27,6 +29,7 @@ class GlimmerRenderEngine(bpy.types.RenderEngine):
         super().__init__(*args, **kwargs)
         self._job: jobs.Job | None = None
         self._failure = ""
+        self._view: RenderedView | None = None
 
     def update(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
         """Reads everything: only here is the scene safe from the user's hands."""
@@ -34,35 +37,34 @@ class GlimmerRenderEngine(bpy.types.RenderEngine):
         try:
             self._job = jobs.prepare(self, depsgraph)
         except Exception as error:  # noqa: BLE001 - see above
-            self._failure = _describe(error)
+            self._failure = describe(error)
 
     def render(self, depsgraph: bpy.types.Depsgraph) -> None:
         if self._job is not None:
             try:
                 self._job.run(self)
             except Exception as error:  # noqa: BLE001 - see above
-                self._failure = _describe(error)
+                self._failure = describe(error)
             self._job = None
         if self._failure:
             jobs.begin_and_end_result(self)
             failure.fail(self, self._failure)
+
+    def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        if self._view is not None:
+            self._view.scene_changed()
+
+    def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        if self._view is None:
+            self._view = RenderedView(jobs.BULK_READERS)
+        redraw.watch(self, self._view)
+        self._view.draw(self, context, depsgraph)
 
     def update_render_passes(
         self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
     ) -> None:
         for item in passes.enabled(renderlayer):
             self.register_pass(scene, renderlayer, item.blender_name, len(item.channels), item.channels, item.kind)
-
-
-def _describe(error: Exception) -> str:
-    """One line for the user. A defect of ours leaves its trace in the log too."""
-    if isinstance(error, GlimmerError):
-        return str(error)
-    traceback.print_exception(error)
-    last = traceback.extract_tb(error.__traceback__)[-1]
-    return (
-        f"a defect of the add-on, please report it: {type(error).__name__}: {error} ({last.name}, line {last.lineno})"
-    )
 
 
 def register() -> None:

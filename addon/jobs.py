@@ -10,12 +10,15 @@ from typing import Any, Protocol
 import bpy
 
 from . import reports
+from .export.camera import export_camera
+from .export.film import export_film, export_settings
 from .export.instance import BulkReader
-from .export.scene import Exported, export_scene
+from .export.scene import Exported, View, export_scene
 from .film import passes
 from .film.display import Display
 from .hexfield.export import export_instances
 from .native.render import open_render
+from .scene.problems import Notices
 from .scene.writer import write_scene
 
 BULK_READERS: tuple[BulkReader, ...] = (export_instances,)
@@ -64,15 +67,18 @@ export_request: dict[str, Path] = {}
 def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Job:
     enabled = (passes.COMBINED,) if engine.is_preview else passes.enabled(depsgraph.view_layer_eval)
     engine.update_stats("", "Reading the scene")
-    camera = engine.camera_override or depsgraph.scene_eval.camera
-    exported = export_scene(
-        depsgraph=depsgraph,
-        camera=None if camera is None else camera.evaluated_get(depsgraph),
-        passes=enabled,
-        version=bpy.app.version,
-        readers=BULK_READERS,
-        is_preview=engine.is_preview,
-    )
+
+    def camera_view(scene: bpy.types.Scene, notices: Notices) -> View:
+        film = export_film(scene, notices)
+        camera = engine.camera_override or scene.camera
+        evaluated = None if camera is None else camera.evaluated_get(depsgraph)
+        return View(
+            film,
+            export_camera(evaluated, (film.width, film.height), notices),
+            export_settings(scene, enabled, engine.is_preview),
+        )
+
+    exported = export_scene(depsgraph, camera_view, bpy.app.version, BULK_READERS)
     path = export_request.pop("path", None) if not engine.is_preview else None
     if path is not None:
         return ExportJob(exported, path)

@@ -5,8 +5,10 @@ import atexit
 
 from . import engine, failure, hexfield, moons, operators, properties, reports, ui
 from .native import render
+from .viewport import redraw
+from .viewport import session as view_session
 
-_PARTS = (properties, failure, engine, operators, hexfield, moons, ui)
+_PARTS = (properties, failure, engine, redraw, operators, hexfield, moons, ui)
 _registered: list[object] = []
 
 
@@ -20,13 +22,18 @@ def register() -> None:
         raise
     # The bpy module crashes or hangs at exit while an engine is registered; the executable has freed Blender's side by
     # then, and only our own memory is left.
-    atexit.register(unregister if failure.is_module() else render.close_all)
+    atexit.register(unregister if failure.is_module() else _close_all)
+
+
+def _close_all() -> None:
+    view_session.close_all()
+    render.close_all()
 
 
 def unregister() -> None:
     atexit.unregister(unregister)
-    atexit.unregister(render.close_all)
-    render.close_all()
+    atexit.unregister(_close_all)
+    _close_all()
     reports.clear()
     while _registered:
         _registered.pop().unregister()  # type: ignore[attr-defined]

@@ -59,8 +59,7 @@ def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int],
     data: bpy.types.Camera = camera_object.data
     where = place(camera_object.name)
     if data.type != "PERSP":
-        kind = {"ORTHO": "orthographic", "PANO": "panoramic"}.get(data.type, data.type.lower())
-        raise GlimmerError(f"Camera '{camera_object.name}' is {kind}, which is not supported yet; allowed: perspective")
+        raise GlimmerError(_unsupported(camera_object))
     to_world: Floats = np.array(camera_object.matrix_world, np.float64)
     if not np.isfinite(to_world).all() or np.linalg.matrix_rank(to_world[:3, :3]) < 3:
         raise GlimmerError(f"Camera '{camera_object.name}' has a scale of 0 or a matrix that is not finite")
@@ -77,6 +76,54 @@ def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int],
         clip_start=data.clip_start,
         clip_end=data.clip_end,
     )
+
+
+def view_projection(window_matrix: Floats, size: tuple[int, int]) -> tuple[float, tuple[float, float]]:
+    """Horizontal angle in degrees, and the shift in widths, of the projection of a region of size (width, height).
+
+    window_matrix: (4, 4), as OpenGL's. Raises GlimmerError for an orthographic one.
+    """
+    matrix = np.asarray(window_matrix, np.float64)
+    if matrix[3, 3] != 0.0:
+        raise GlimmerError("Orthographic views are not supported yet: press Numpad 5 for perspective")
+    across, up = float(matrix[0, 0]), float(matrix[1, 1])
+    shift = (0.5 * float(matrix[0, 2]), 0.5 * float(matrix[1, 2]) * across / up)
+    return degrees(2.0 * atan(1.0 / across)), shift
+
+
+def export_view(
+    view: bpy.types.SpaceView3D,
+    region_view: bpy.types.RegionView3D,
+    camera_object: bpy.types.Object | None,
+    size: tuple[int, int],
+    notices: Notices,
+) -> Camera:
+    """What a 3D view of size (width, height) looks through. camera_object: evaluated, for a view through it."""
+    data = None
+    if region_view.view_perspective == "CAMERA" and camera_object is not None and camera_object.type == "CAMERA":
+        data = camera_object.data
+        if data.type == "PANO":
+            raise GlimmerError(_unsupported(camera_object))
+    fov_x, shift = view_projection(np.array(region_view.window_matrix), size)
+    to_world = rigid(np.array(region_view.view_matrix.inverted(), np.float64))
+    lens_radius, focus_distance = 0.0, 1.0
+    if data is not None and camera_object is not None:
+        lens_radius, focus_distance = _depth_of_field(data, to_world, place(camera_object.name), notices)
+    return Camera(
+        to_world=to_world,
+        fov_x=fov_x,
+        shift=shift,
+        lens_radius=lens_radius,
+        focus_distance=focus_distance,
+        clip_start=view.clip_start if data is None else data.clip_start,
+        clip_end=view.clip_end if data is None else data.clip_end,
+    )
+
+
+def _unsupported(camera_object: bpy.types.Object) -> str:
+    kind = camera_object.data.type
+    word = {"ORTHO": "orthographic", "PANO": "panoramic"}.get(kind, kind.lower())
+    return f"Camera '{camera_object.name}' is {word}, which is not supported yet; allowed: perspective"
 
 
 def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notices: Notices) -> tuple[float, float]:

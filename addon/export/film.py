@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 # A material preview is small and must come at once.
 PREVIEW_SAMPLES = 32
 PREVIEW_SECONDS = 2.0
+NO_LIMIT = 2**40  # samples; without any limit the engine stops at 64
 
 
 def full_size(render: bpy.types.RenderSettings) -> tuple[int, int]:
@@ -58,6 +59,19 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
             raise GlimmerError("The render border holds no pixel: make it larger, or clear it with Ctrl Alt B")
     settings = scene.glimmer
     return Film(*size, crop=crop, filter=settings.filter.lower(), filter_width=settings.filter_width)
+
+
+def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:
+    """Of a 3D view: it goes on until it is good enough to the eye, so only its own limit ends it."""
+    settings, render = scene.glimmer, scene.render
+    return RenderSettings(
+        integrator=settings.integrator or None,
+        samples=settings.viewport_samples or NO_LIMIT,
+        seed=settings.seed,
+        threads=render.threads if render.threads_mode == "FIXED" else 0,
+        max_depth=settings.max_depth if settings.use_max_depth else None,
+        max_scatter=settings.max_scatter if settings.use_max_scatter else None,
+    )
 
 
 def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_preview: bool = False) -> RenderSettings:

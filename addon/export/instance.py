@@ -35,11 +35,18 @@ class Placed:
         return np.concatenate([np.asarray(m, np.float64).reshape(-1, 4, 4) for m in self.matrices])
 
 
-def placed_objects(depsgraph: bpy.types.Depsgraph, readers: tuple[BulkReader, ...]) -> Iterator[Placed]:
+def placed_objects(
+    depsgraph: bpy.types.Depsgraph,
+    readers: tuple[BulkReader, ...],
+    is_shown: Callable[[bpy.types.Object], bool] | None = None,
+) -> Iterator[Placed]:
     """Everything visible. An object is valid only until the next is asked for: an instance's may be a temporary one."""
     by_loop: set[int] = set()
     bulk: dict[int, Placed] = {}
+    show_instancer = "show_instancer_for_render" if depsgraph.mode == "RENDER" else "show_instancer_for_viewport"
     for item in depsgraph.objects:
+        if is_shown is not None and not is_shown(item):
+            continue
         if _may_have_instances(item):
             found = next((result for reader in readers if (result := reader(item, depsgraph)) is not None), None)
             if found is None:
@@ -47,7 +54,7 @@ def placed_objects(depsgraph: bpy.types.Depsgraph, readers: tuple[BulkReader, ..
             else:
                 for prototype, matrices in found:
                     bulk.setdefault(prototype.as_pointer(), Placed(prototype)).matrices.append(matrices)
-        if not item.is_instancer or item.show_instancer_for_render:
+        if not item.is_instancer or getattr(item, show_instancer):
             yield Placed(item, [np.array(item.matrix_world, np.float64)])
     yield from bulk.values()
     if by_loop:

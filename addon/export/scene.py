@@ -4,16 +4,25 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..film.passes import RenderPass
-from ..scene.description import Floats, Lamp, Mesh, NamedMaterial, Object, SceneDescription, Spheres
+from ..scene.description import (
+    Camera,
+    Film,
+    Floats,
+    Lamp,
+    Mesh,
+    NamedMaterial,
+    Object,
+    RenderSettings,
+    SceneDescription,
+    Spheres,
+)
 from ..scene.problems import GlimmerError, Notice, Notices, place
-from .camera import export_camera
-from .film import export_film, export_settings
 from .instance import BulkReader, Placed, placed_objects
 from .light import export_lamp
 from .material import export_material
@@ -29,6 +38,15 @@ UNSUPPORTED = {"CURVES", "HAIR", "POINTCLOUD", "VOLUME", "GPENCIL", "GREASEPENCI
 
 
 @dataclass(frozen=True)
+class View:
+    """What a picture is made of a scene with: the camera's for F12, the region's in a 3D view."""
+
+    film: Film
+    camera: Camera
+    settings: RenderSettings
+
+
+@dataclass(frozen=True)
 class Exported:
     scene: SceneDescription
     notices: tuple[Notice, ...]
@@ -38,37 +56,36 @@ class Exported:
 
 def export_scene(
     depsgraph: bpy.types.Depsgraph,
-    camera: bpy.types.Object | None,
-    passes: tuple[RenderPass, ...],
+    view: Callable[[bpy.types.Scene, Notices], View],
     version: tuple[int, ...],
     readers: tuple[BulkReader, ...] = (),
-    is_preview: bool = False,
+    is_shown: Callable[[bpy.types.Object], bool] | None = None,
 ) -> Exported:
     """Raises GlimmerError when no picture can be made of the scene.
 
-    camera: evaluated. version: Blender's. readers: see BulkReader.
+    view: of the evaluated scene. version: Blender's. readers: see BulkReader. is_shown: of an evaluated object, for
+    what the depsgraph does not know (a local view).
     """
     start = time.perf_counter()
     notices = Notices()
     scene = depsgraph.scene_eval
-    film = export_film(scene, notices)
-    view_camera = export_camera(camera, (film.width, film.height), notices)
+    seen = view(scene, notices)
     collector = _Collector(depsgraph, version, notices)
-    for placed in placed_objects(depsgraph, readers):
+    for placed in placed_objects(depsgraph, readers, is_shown):
         collector.add(placed)
     environment, medium = export_world(scene.world, notices)
     lights = tuple(collector.lights)
     warn_of_black_sky(scene.world, environment, lights, medium, notices)
     description = SceneDescription(
-        film=film,
-        camera=view_camera,
+        film=seen.film,
+        camera=seen.camera,
         materials=tuple(collector.materials),
         objects=tuple(collector.objects),
         spheres=tuple(collector.spheres),
         lights=lights,
         environment=environment,
         medium=medium,
-        settings=export_settings(scene, passes, is_preview),
+        settings=seen.settings,
     )
     return Exported(description, tuple(notices.items), time.perf_counter() - start, _size(description))
 

@@ -33,6 +33,7 @@ class Progress:
     relmse_high: float = nan
     peak_bytes: int = 0
     invalid_samples: int = 0
+    version: int = 0  # grows whenever a pixel changed
 
     @property
     def ended(self) -> bool:
@@ -101,6 +102,12 @@ class NativeRender:
     def start(self) -> None:
         self._library.call("glimmer_render_start", self._handle)
 
+    def pause(self) -> None:
+        self._library.call("glimmer_render_pause", self._handle)
+
+    def resume(self) -> None:
+        self._library.call("glimmer_render_resume", self._handle)
+
     def cancel(self) -> None:
         self._library.call("glimmer_render_cancel", self._handle)
 
@@ -121,6 +128,7 @@ class NativeRender:
             relmse_high=desc.relmse_high,
             peak_bytes=desc.peak_bytes,
             invalid_samples=desc.invalid_samples,
+            version=desc.version,
         )
 
     def changed_tiles(self) -> list[Tile]:
@@ -161,13 +169,15 @@ _open_renders: WeakSet[NativeRender] = WeakSet()
 _meshes: dict[int, MeshCache] = {}
 
 
-def open_render(scene: SceneDescription) -> tuple[NativeRender, list[str]]:
+def open_render(scene: SceneDescription, meshes: MeshCache | None = None) -> tuple[NativeRender, list[str]]:
     """Builds the scene and a render of it, ready to start, and the scene's warnings.
 
-    Meshes of the last scene that are in this one too are not built again.
+    Meshes of the last scene that are in this one too are not built again. They are kept in `meshes`, without which all
+    callers share one; whoever builds on a thread of its own needs its own, since another's scene drops the meshes.
     """
     library = load()
-    meshes = _meshes.setdefault(id(library), MeshCache(library))
+    if meshes is None:
+        meshes = _meshes.setdefault(id(library), MeshCache(library))
     native = NativeScene(library, scene, meshes)
     meshes.keep_only({mesh.digest for mesh in scene.meshes()})
     try:

@@ -39,6 +39,7 @@ class MeshCache:
     def __init__(self, library: Library) -> None:
         self._library = library
         self._handles: dict[bytes, c_void_p] = {}
+        self.created = 0  # so far
 
     def __len__(self) -> int:
         return len(self._handles)
@@ -47,6 +48,7 @@ class MeshCache:
         handle = self._handles.get(mesh.digest)
         if handle is None:
             handle = self._handles[mesh.digest] = self._create(mesh)
+            self.created += 1
         return handle
 
     def keep_only(self, meshes: set[bytes]) -> None:

@@ -36,6 +36,13 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
     samples: bpy.props.IntProperty(
         name="Samples", description="Samples of every pixel", default=64, min=1, soft_max=65536
     )
+    viewport_samples: bpy.props.IntProperty(
+        name="Viewport Samples",
+        description="Samples of every pixel of a 3D view in rendered shading; 0 goes on for ever",
+        default=1024,
+        min=0,
+        soft_max=65536,
+    )
     use_seconds: bpy.props.BoolProperty(
         name="Time Limit", description="Stop after this render time, loading and building left out", default=False
     )

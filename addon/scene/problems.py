@@ -1,11 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What can go wrong between a Blender scene and a picture, in the words that a user reads."""
 
+import traceback
 from dataclasses import dataclass, field
 
 
 class GlimmerError(Exception):
     """No picture can be made. The message is one line: what is wrong, where, and what is allowed."""
+
+
+def describe(error: Exception) -> str:
+    """One line for the user. A defect of ours leaves its trace in the log too."""
+    if isinstance(error, GlimmerError):
+        return str(error)
+    traceback.print_exception(error)
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return (
+        f"a defect of the add-on, please report it: {type(error).__name__}: {error} ({last.name}, line {last.lineno})"
+    )
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,7 @@ class GLIMMER_PT_sampling(GlimmerPanel, bpy.types.Panel):
         _limit(layout, settings, "use_samples", "samples")
         _limit(layout, settings, "use_seconds", "seconds")
         _limit(layout, settings, "use_target_error", "target_error")
+        layout.prop(settings, "viewport_samples")
         row = layout.row(align=True)
         row.prop(settings, "seed")
         row.prop(settings, "use_seed_per_frame", text="", icon="TIME")

@@ -6,7 +6,8 @@ from math import atan, degrees, radians, tan
 import numpy as np
 import pytest
 
-from addon.export.camera import projection, rigid
+from addon.export.camera import projection, rigid, view_projection
+from addon.scene.problems import GlimmerError
 
 SENSOR = (36.0, 24.0)
 
@@ -31,6 +32,32 @@ def test_projection_spans_blenders_view_plane(fit: str, size: tuple[int, int]) -
     x, y = in_widths[0] * width, in_widths[1] * width
     plane = (x - width / 2, x + width / 2, y - height / 2, y + height / 2)
     np.testing.assert_allclose(plane, view_plane(50.0, fit, shift, size), rtol=1e-12)
+
+
+def frustum(left: float, right: float, bottom: float, top: float, near: float, far: float) -> list[list[float]]:
+    """OpenGL's, as Blender's regions have it."""
+    return [
+        [2 * near / (right - left), 0.0, (right + left) / (right - left), 0.0],
+        [0.0, 2 * near / (top - bottom), (top + bottom) / (top - bottom), 0.0],
+        [0.0, 0.0, -(far + near) / (far - near), -2 * far * near / (far - near)],
+        [0.0, 0.0, -1.0, 0.0],
+    ]
+
+
+@pytest.mark.parametrize("shift", [(0.0, 0.0), (0.25, -0.4)])
+@pytest.mark.parametrize("size", [(480, 270), (270, 480)])
+def test_a_regions_matrix_spans_the_same_plane(size: tuple[int, int], shift: tuple[float, float]) -> None:
+    near = 0.125
+    left, right, bottom, top = (near * edge for edge in view_plane(50.0, "AUTO", shift, size))
+    matrix = frustum(left, right, bottom, top, near, 100.0)
+    fov_x, in_widths = view_projection(np.array(matrix), size)
+    assert fov_x == pytest.approx(projection(50.0, SENSOR, "AUTO", shift, size)[0], rel=1e-12)
+    np.testing.assert_allclose(in_widths, projection(50.0, SENSOR, "AUTO", shift, size)[1], atol=1e-12)
+
+
+def test_an_orthographic_matrix_is_refused() -> None:
+    with pytest.raises(GlimmerError, match="Orthographic"):
+        view_projection(np.diag([0.1, 0.2, -0.01, 1.0]), (480, 270))
 
 
 def test_landscape_of_a_full_frame_lens() -> None:

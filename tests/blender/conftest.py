@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
+import os
+import shutil
+import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -25,3 +29,20 @@ def host(request: pytest.FixtureRequest, library_dir: Path, tmp_path_factory: py
     profile = tmp_path_factory.mktemp("profile")
     python = request.getfixturevalue("bpy_python")
     return Host("bpy", python, environment(profile, library_dir / "libglimmer.so", None))
+
+
+@pytest.fixture(scope="module")
+def display() -> Iterator[str]:
+    """An X server of our own."""
+    for program in ("Xvfb", "xdotool"):
+        assert shutil.which(program), f"{program} is missing; run the tests by `python3 build.py test`"
+    read_end, write_end = os.pipe()
+    command = ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x800x24", "+extension", "GLX"]
+    server = subprocess.Popen(command, pass_fds=[write_end], stderr=subprocess.DEVNULL)
+    os.close(write_end)
+    with os.fdopen(read_end) as pipe:
+        number = pipe.readline().strip()
+    assert number, "Xvfb did not start"
+    yield f":{number}"
+    server.terminate()
+    server.wait(10)

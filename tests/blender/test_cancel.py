@@ -2,17 +2,13 @@
 """Stopping a render: Escape in a window, and an interrupt in the background."""
 
 import json
-import os
-import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import OpenImageIO
-import pytest
 from hosts import Host
 
 SCRIPT = Path(__file__).with_name("window_script.py")
@@ -27,23 +23,6 @@ def wait_for(path: Path, process: subprocess.Popen[str], seconds: float) -> None
         assert process.poll() is None, f"Blender ended with {process.returncode}"
         assert time.monotonic() < end, f"no {path.name} after {seconds} s"
         time.sleep(0.05)
-
-
-@pytest.fixture
-def display() -> Iterator[str]:
-    """An X server of our own."""
-    for program in ("Xvfb", "xdotool"):
-        assert shutil.which(program), f"{program} is missing; run the tests by `python3 build.py test`"
-    read_end, write_end = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x800x24", "+extension", "GLX"]
-    server = subprocess.Popen(command, pass_fds=[write_end], stderr=subprocess.DEVNULL)
-    os.close(write_end)
-    with os.fdopen(read_end) as pipe:
-        number = pipe.readline().strip()
-    assert number, "Xvfb did not start"
-    yield f":{number}"
-    server.terminate()
-    server.wait(10)
 
 
 def test_escape_stops_at_once_and_keeps_what_is_there(blender_host: Host, display: str, tmp_path: Path) -> None:
