@@ -98,5 +98,5 @@ def _brighter(surface: Surface, factor: float) -> Surface:
     if isinstance(surface, Mirror):
         return replace(surface, reflectance=cut(surface.reflectance))
     if isinstance(surface, Conductor):
-        return surface if surface.f0 is None else replace(surface, f0=cut(surface.f0))
+        return surface if surface.f0 is None else replace(surface, f0=cut(surface.f0), f90=cut(surface.f90))
     return replace(surface, a=_brighter(surface.a, factor), b=_brighter(surface.b, factor))

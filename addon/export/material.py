@@ -155,7 +155,8 @@ class _Shaders:
         color, alpha = self.albedo(source), self._alpha(source)
         if alpha < MIRROR_ALPHA:
             return Mirror(color)
-        return Conductor(alpha=alpha, f0=color)
+        # Cycles' Glossy has no Fresnel: its colour is the reflectance at every angle.
+        return Conductor(alpha=alpha, f0=color, f90=color)
 
     def metallic(self, source: Source) -> Material:
         alpha = self._alpha(source)

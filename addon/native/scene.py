@@ -228,7 +228,7 @@ class _MaterialAdder:
         elif isinstance(material, d.Conductor):
             desc.type, desc.alpha = MaterialType.CONDUCTOR, material.alpha
             if material.f0 is not None:
-                desc.use_f0, desc.f0 = 1, material.f0
+                desc.use_f0, desc.f0, desc.f90 = 1, material.f0, material.f90
             else:
                 desc.eta, desc.k = material.eta, material.k
         elif isinstance(material, d.Glass):

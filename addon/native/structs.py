@@ -87,6 +87,7 @@ class MaterialDesc(ctypes.Structure):
         ("weight", c_float),
         ("a", c_uint32),
         ("b", c_uint32),
+        ("f90", c_float * 3),
     ]
 
 

@@ -66,13 +66,15 @@ class Mirror:
 
 @dataclass(frozen=True)
 class Conductor:
-    """A rough metal: GGX of width alpha, with the exact Fresnel equations of eta + i k, or Schlick's from f0."""
+    """A rough metal: GGX of width alpha, with the exact Fresnel equations of eta + i k, or Schlick's from f0
+    to f90 at grazing."""
 
     alpha: float
     f0: Rgb | None = None
     eta: Rgb = WHITE
     k: Rgb = BLACK
     emission: Rgb = BLACK
+    f90: Rgb = WHITE
 
 
 @dataclass(frozen=True)

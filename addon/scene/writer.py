@@ -163,6 +163,8 @@ def _material(material: d.Material) -> Json:
         result = {"type": "conductor", "alpha": material.alpha}
         if material.f0 is not None:
             result["f0"] = list(material.f0)
+            if material.f90 != d.WHITE:
+                result["f90"] = list(material.f90)
         else:
             result["eta"], result["k"] = list(material.eta), list(material.k)
     elif isinstance(material, d.Glass):

@@ -94,7 +94,7 @@ GLIMMER_API void glimmer_scene_destroy(glimmer_scene *scene);
 typedef enum glimmer_material_type {
     GLIMMER_LAMBERT = 0,   /* color = albedo, 0 to 1 */
     GLIMMER_MIRROR = 1,    /* color = reflectance, 0 to 1 */
-    GLIMMER_CONDUCTOR = 2, /* alpha; eta and k, or f0 when use_f0; masking */
+    GLIMMER_CONDUCTOR = 2, /* alpha; eta and k, or f0 and f90 when use_f0; masking */
     GLIMMER_GLASS = 3,     /* ior > 0; schlick_fresnel */
     GLIMMER_REPORT_METAL =
         4,             /* color = albedo, f0, alpha: the student report's sum of both lobes, not energy conserving */
@@ -124,6 +124,7 @@ typedef struct glimmer_material_desc {
     float emission[3];   /* radiance added on both sides, >= 0; not for light, glass and null */
     float weight;        /* mix: 0 to 1 */
     uint32_t a, b;       /* mix: materials added before */
+    float f90[3];        /* 0 to 1, default 1 (Schlick): f0 + (f90 - f0) (1 - cos)^5 */
 } glimmer_material_desc;
 
 GLIMMER_API void glimmer_material_init(glimmer_material_desc *desc);

@@ -71,12 +71,12 @@ PROBE void probe_bsdf_describe(const probe_lobe *lobes, uint64_t count, float *s
     flags[1] = has_specular(Bsdf(bsdf));
 }
 
-/// kind: 0 conductor, 1 dielectric, 2 Schlick from f0 = eta, 3 dielectric by Schlick.
+/// kind: 0 conductor, 1 dielectric, 2 Schlick from f0 = eta to f90 = k, 3 dielectric by Schlick.
 PROBE void probe_fresnel(int kind, const float *cos_i, const float *eta, const float *k, uint64_t n, float *out) {
     for (uint64_t i = 0; i < n; ++i)
         out[i] = kind == 0   ? fresnel_conductor(cos_i[i], eta[i], k[i])
                  : kind == 1 ? fresnel_dielectric(cos_i[i], eta[i])
-                 : kind == 2 ? fresnel_schlick(cos_i[i], Rgb(eta[i])).r
+                 : kind == 2 ? fresnel_schlick(cos_i[i], Rgb(eta[i]), Rgb(k[i])).r
                              : fresnel_dielectric_schlick(cos_i[i], eta[i]);
 }
 

@@ -118,12 +118,19 @@ def mixed() -> None:
     tree = bpy.data.objects["Ball"].active_material.node_tree
     glossy, mix = tree.nodes.new("ShaderNodeBsdfGlossy"), tree.nodes.new("ShaderNodeMixShader")
     glossy.distribution = "GGX"
-    glossy.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    glossy.inputs["Color"].default_value = OCHRE
     glossy.inputs["Roughness"].default_value = 0.5
     mix.inputs[0].default_value = 0.3
     tree.links.new(tree.nodes["Diffuse BSDF"].outputs[0], mix.inputs[1])
     tree.links.new(glossy.outputs[0], mix.inputs[2])
     tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+
+
+def glossy_at_grazing() -> None:
+    """Under an even sky, where a reflectance that grows with the angle would show most."""
+    scene = inside.empty_scene((0.5, 0.5, 0.5))
+    inside.plane(material=inside.material("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.4))
+    scene.camera.location, scene.camera.rotation_euler = (0.0, -6.0, 1.0), (1.3, 0.0, 0.0)
 
 
 def fog(kind: str, **inputs: Any) -> None:
@@ -153,7 +160,8 @@ SCENES: dict[str, Callable[[], Any]] = {
     "instances": instances,
     "emissive mesh": emissive_mesh,
     "diffuse": shader("ShaderNodeBsdfDiffuse", Color=OCHRE),
-    "glossy": shader("ShaderNodeBsdfGlossy", "GGX", Color=WHITE, Roughness=0.5),
+    "glossy": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.5),
+    "glossy at grazing": glossy_at_grazing,
     "mirror": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.0),
     "glass": shader("ShaderNodeBsdfGlass", None, Roughness=0.0, IOR=1.5),
     "mix": mixed,

@@ -252,8 +252,8 @@ def fresnel_dielectric(cos_i: ArrayLike, eta: ArrayLike) -> Array:
     return _fresnel(1, cos_i, eta)
 
 
-def fresnel_schlick(cos_i: ArrayLike, f0: ArrayLike) -> Array:
-    return _fresnel(2, cos_i, f0)
+def fresnel_schlick(cos_i: ArrayLike, f0: ArrayLike, f90: ArrayLike = 1) -> Array:
+    return _fresnel(2, cos_i, f0, f90)
 
 
 def fresnel_dielectric_schlick(cos_i: ArrayLike, eta: ArrayLike) -> Array:

@@ -383,6 +383,7 @@ LAMBERT, MIRROR, CONDUCTOR, GLASS, REPORT_METAL, MIX, LIGHT, NULL = range(8)
         ({"type": CONDUCTOR, "eta": (0, 1, 1)}, "eta"),
         ({"type": CONDUCTOR, "k": (1, -1, 1)}, "k"),
         ({"type": CONDUCTOR, "use_f0": 1, "f0": (0, 0, 1.1)}, "f0"),
+        ({"type": CONDUCTOR, "use_f0": 1, "f90": (0, -0.1, 1)}, "f90"),
         ({"type": CONDUCTOR, "masking": 3}, "masking"),
         ({"type": GLASS, "ior": 0}, "ior"),
         ({"type": GLASS, "ior": -1.5}, "ior"),

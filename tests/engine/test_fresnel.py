@@ -82,6 +82,9 @@ def test_schlick() -> None:
     f0 = 0.3
     expected = f0 + (1 - f0) * (1 - double(COSINES)) ** 5
     assert relative_error(probe.fresnel_schlick(COSINES, f0), expected).max() <= 8 * ROUNDING
+    falling = f0 + (0.1 - f0) * (1 - double(COSINES)) ** 5
+    assert relative_error(probe.fresnel_schlick(COSINES, f0, 0.1), falling).max() <= 16 * ROUNDING
+    assert (probe.fresnel_schlick(COSINES, f0, f0) == single(f0)).all()
     for eta in (1.5, 1.0001, 10):
         r0 = ((double(single(eta)) - 1) / (double(single(eta)) + 1)) ** 2
         assert probe.fresnel_dielectric_schlick(1, eta)[0] == pytest.approx(r0, rel=1e-6)

@@ -131,6 +131,8 @@ BAD = [
         'materials.glass.fresnel: "Schlick" is not a Fresnel function; Fresnel functions are "exact", "schlick"',
     ),
     Bad(("materials", "metal", "f0"), 0.5, "materials.metal: needs either eta and k, or f0"),
+    Bad(("materials", "metal", "f90"), 0.5, "materials.metal: f90 goes with f0, not with eta and k"),
+    Bad(("materials", "gold", "f90"), 1.5, "materials.gold.f90: 1.5 is not a number from 0 to 1"),
     Bad(("materials", "metal", "k"), REMOVED, 'materials.metal: the key "k" is missing'),
     Bad(("materials", "metal", "eta"), 0, "materials.metal.eta: 0 is not a number above 0"),
     Bad(
@@ -712,6 +714,7 @@ MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
     (("materials", "metal", "masking"), "schlick_ggx"),
     (("materials", "metal", "emission"), 2),
     (("materials", "gold", "f0"), 0.2),
+    (("materials", "gold", "f90"), 0.2),
     (("materials", "gold", "alpha"), 0.5),
     (("materials", "wax", "albedo"), 0.1),
     (("materials", "wax", "emission"), 1),

@@ -98,7 +98,7 @@ class MaterialReader {
             copy(value.at("reflectance").color(kUnit), desc.color);
             break;
         case GLIMMER_CONDUCTOR:
-            value.expect_object({"type", "alpha", "eta", "k", "f0", "masking", "emission"});
+            value.expect_object({"type", "alpha", "eta", "k", "f0", "f90", "masking", "emission"});
             fill_conductor(value, desc);
             break;
         case GLIMMER_GLASS:
@@ -140,6 +140,11 @@ class MaterialReader {
             copy(value.at("k").color(kNonNegative), desc.k);
         } else {
             copy(value.at("f0").color(kUnit), desc.f0);
+        }
+        if (const auto f90 = value.find("f90")) {
+            if (has_eta)
+                value.fail("f90 goes with f0, not with eta and k");
+            copy(f90->color(kUnit), desc.f90);
         }
         if (const auto masking = value.find("masking"))
             desc.masking = maskings[one_of(*masking, "a masking function", "masking functions", names)];

@@ -64,6 +64,7 @@ void check_material(const SceneDescription &scene, const glimmer_material_desc &
             fail_argument(what + ": masking " + std::to_string(int(d.masking)) + " is not known; allowed: 0 to 2");
         if (d.use_f0) {
             check_each(d.f0, 0, 1, what + ": f0");
+            check_each(d.f90, 0, 1, what + ": f90");
         } else {
             for (float eta : d.eta)
                 if (!(eta > 0) || !std::isfinite(eta))
@@ -170,6 +171,7 @@ void glimmer_material_init(glimmer_material_desc *desc) {
         desc->color[c] = 0.5f;
         desc->eta[c] = 1;
         desc->f0[c] = 0.5f;
+        desc->f90[c] = 1;
     }
     desc->ior = 1.5f;
     desc->weight = 0.5f;

@@ -12,16 +12,17 @@ namespace glimmer {
 
 struct Conductor {
     float alpha = 0;     ///< GGX width, 0 to 1
-    bool use_f0 = false; ///< Schlick's approximation from f0, in place of eta and k
+    bool use_f0 = false; ///< Schlick's approximation from f0 to f90, in place of eta and k
     Rgb eta, k, f0;
     Masking masking = Masking::Smith;
+    Rgb f90 = Rgb(1);
 };
 
 inline bool is_specular(const Conductor &lobe) {
     return lobe.alpha < kSmoothAlpha;
 }
 inline Rgb fresnel(const Conductor &lobe, float cos_i) {
-    return lobe.use_f0 ? fresnel_schlick(cos_i, lobe.f0) : fresnel_conductor(cos_i, lobe.eta, lobe.k);
+    return lobe.use_f0 ? fresnel_schlick(cos_i, lobe.f0, lobe.f90) : fresnel_conductor(cos_i, lobe.eta, lobe.k);
 }
 /// Reflectance at normal incidence: an approximation of the directional albedo.
 inline Rgb albedo(const Conductor &lobe) {

@@ -59,8 +59,9 @@ inline float schlick_weight(float cos_i) {
     const float x = std::clamp(1 - cos_i, 0.0f, 1.0f), x2 = x * x;
     return x2 * x2 * x;
 }
-inline Rgb fresnel_schlick(float cos_i, const Rgb &f0) {
-    return f0 + (Rgb(1) - f0) * schlick_weight(cos_i);
+/// f90: at grazing; 1 for real metals, f0 for a reflectance that no angle changes.
+inline Rgb fresnel_schlick(float cos_i, const Rgb &f0, const Rgb &f90 = Rgb(1)) {
+    return f0 + (f90 - f0) * schlick_weight(cos_i);
 }
 
 /// Schlick's approximation between dielectrics: the cosine is taken on the rarer side, so that it joins total
