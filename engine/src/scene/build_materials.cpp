@@ -22,7 +22,8 @@ Lobe to_lobe(const MaterialDescription &m) {
     case GLIMMER_MIRROR:
         return Mirror{to_rgb(m.color)};
     case GLIMMER_CONDUCTOR:
-        return Conductor{m.alpha, m.use_f0 != 0, to_rgb(m.eta), to_rgb(m.k), to_rgb(m.f0), to_masking(m.masking), to_rgb(m.f90)};
+        return Conductor{m.alpha,      m.use_f0 != 0,         to_rgb(m.eta), to_rgb(m.k),
+                         to_rgb(m.f0), to_masking(m.masking), to_rgb(m.f90)};
     case GLIMMER_REPORT_METAL:
         return ReportMetal{to_rgb(m.color), to_rgb(m.f0), m.alpha};
     default:
