@@ -104,6 +104,8 @@ PACKAGES = (
     Package("python3-venv", "test", "virtual environments of the tests"),
     Package("ca-certificates", "test", "pip's downloads"),
     Package("clang-format", "test", "lint of the engine"),
+    Package("clang", "test", "fuzzers"),
+    Package("libclang-rt-14-dev", "test", "their runtime"),
     Package("xvfb", "test", "a display for Blender's window"),
     Package("xdotool", "test", "keys for that window"),
     Package("libgl1-mesa-dri", "test", "draws it"),
@@ -401,7 +403,7 @@ def arguments() -> argparse.ArgumentParser:
     item = command("setup", "Install what building and rendering need, and is missing (apt).", blender=True)
     item.add_argument("--test", action="store_true", help="also what `test` and `lint` need")
     item = command("build", "Compile the engine; leaves build/bin/glimmer and build/lib/libglimmer.so.")
-    item.add_argument("--preset", default="release", choices=("release", "debug", "asan", "tsan"))
+    item.add_argument("--preset", default="release", choices=("release", "debug", "asan", "tsan", "fuzz"))
     item = command("render", "Render a .blend with Glimmer in Blender; writes a PNG and an EXR.", blender=True)
     item.add_argument(
         "scene", nargs="?", type=Path, default=DEFAULT_SCENE, help="default: blend_scenes/glimmervoid.blend"

@@ -263,12 +263,12 @@ def test_struct_size(struct: type[ctypes.Structure], scene: c_void_p) -> None:
     }
     if struct is structs.ProgressDesc:
         with Render(committed(), samples=1) as render:
-            for size in (0, 100000):
+            for size in (0, 100000, ctypes.sizeof(struct) - 4):
                 progress = engine().init(structs.ProgressDesc)
                 progress.struct_size = size
                 refused(library.glimmer_render_poll(render.handle, byref(progress)), ARGUMENT, "progress")
         return
-    for size in (0, 100000, ctypes.sizeof(struct) + 8):
+    for size in (0, 100000, ctypes.sizeof(struct) + 8, ctypes.sizeof(struct) - 4, 9):  # the last two cut a field in two
         desc: Any = engine().init(struct)
         desc.struct_size = size
         refused(takers[struct.__name__](byref(desc)), ARGUMENT, "struct_size")
@@ -615,6 +615,12 @@ def test_bad_states_to_load() -> None:
     damaged = bytearray(state)
     damaged[40:48] = b"\xff" * 8  # the length of its curve
     assert try_load(bytes(damaged)) == ARGUMENT
+
+
+def test_a_message_is_one_line_whatever_the_name(scene: c_void_p) -> None:
+    for name in (b"two\nlines", b"back\rto the start", b"\x1b[31mred", b"bell\x07", b"delete\x7f"):
+        message = refused(add_material(scene, name=name, alpha=2, type=CONDUCTOR)[0], ARGUMENT, "alpha")
+        assert message.isprintable(), message
 
 
 def test_errors_are_kept_by_thread() -> None:

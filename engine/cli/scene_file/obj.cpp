@@ -25,6 +25,24 @@ std::string line_with(const std::string &warnings, std::string_view word) {
     return "";
 }
 
+/// The lines that a mesh is made of. The loader stumbles over some others (skin weights and tags that are no numbers),
+/// which no mesh of ours has a use for.
+std::string mesh_lines(std::string_view text) {
+    constexpr std::string_view words[] = {"v", "vn", "vt", "f"};
+    std::string result;
+    for (size_t end = 0; !text.empty(); text.remove_prefix(std::min(end + 1, text.size()))) {
+        end = std::min(text.find_first_of("\r\n"), text.size());
+        const std::string_view line = text.substr(0, end);
+        const size_t start = std::min(line.find_first_not_of(" \t"), line.size());
+        const std::string_view word = line.substr(start, line.find_first_of(" \t", start) - start);
+        if (std::find(std::begin(words), std::end(words), word) != std::end(words))
+            (result += line) += '\n';
+        else
+            result += '\n'; // the loader's messages count lines
+    }
+    return result;
+}
+
 } // namespace
 
 MeshData parse_obj(const std::string &text, const std::string &name) {
@@ -33,7 +51,7 @@ MeshData parse_obj(const std::string &text, const std::string &name) {
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warnings, errors;
-    std::istringstream stream(text);
+    std::istringstream stream(mesh_lines(text));
     if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &stream, nullptr, true))
         fail(errors.empty() ? "is not a .obj file" : one_line(errors));
     // The loader would leave such faces out.

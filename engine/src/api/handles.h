@@ -85,14 +85,20 @@ void destroy(Handle *handle) noexcept {
     }
 }
 
+/// Whether a caller's struct_size can be that of some version of Desc: one that cut a field in two is none.
+template <class Desc>
+bool known_size(size_t struct_size) {
+    return struct_size >= alignof(Desc) && struct_size <= sizeof(Desc) && struct_size % alignof(Desc) == 0;
+}
+
 /// A description as this library knows it: what an older caller left out keeps its default.
 template <class Desc>
 Desc checked_desc(const Desc *desc, const Desc &defaults, const char *what) {
     if (!desc)
         fail_argument(std::string(what) + ": the description is null");
-    if (desc->struct_size == 0 || desc->struct_size > sizeof(Desc))
-        fail_argument(std::string(what) + ": struct_size is " + std::to_string(desc->struct_size) + ", at most " +
-                      std::to_string(sizeof(Desc)) + " is known; fill it from the init function");
+    if (!known_size<Desc>(desc->struct_size))
+        fail_argument(std::string(what) + ": struct_size is " + std::to_string(desc->struct_size) + "; allowed: " +
+                      std::to_string(sizeof(Desc)) + ", or less from an older header; fill it from the init function");
     Desc out = defaults;
     std::memcpy(static_cast<void *>(&out), desc, desc->struct_size);
     out.struct_size = sizeof(Desc);

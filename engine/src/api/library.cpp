@@ -12,8 +12,8 @@ thread_local std::string last_error;
 glimmer_result keep_error(glimmer_result code, const char *message) noexcept {
     try {
         last_error = message;
-        for (char &c : last_error) // one line, whatever was in it
-            if (c == '\n')
+        for (char &c : last_error) // one line, whatever the names in it hold
+            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
                 c = ' ';
     } catch (...) {
         last_error.clear();

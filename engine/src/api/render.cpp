@@ -105,7 +105,7 @@ void glimmer_progress_init(glimmer_progress *progress) {
 glimmer_result glimmer_render_poll(glimmer_render *render, glimmer_progress *progress) {
     return guarded([&] {
         glimmer_render &r = checked(render, "render");
-        if (!progress || progress->struct_size == 0 || progress->struct_size > sizeof *progress)
+        if (!progress || !known_size<glimmer_progress>(progress->struct_size))
             fail_argument("progress: the output is null or was not initialised");
         const glimmer_progress p = r.session->progress();
         const size_t size = progress->struct_size;
