@@ -40,11 +40,16 @@ class RenderJob:
         engine.update_stats("", "Building")
         render, warnings = open_render(self.exported.scene)
         with render:
-            display = Display(engine, render, self.exported.scene, self.passes, self.layer)
+
+            def watch(report: dict[str, Any]) -> None:
+                reports.update(reports.collect(report, self.exported, warnings), self.layer)
+
+            is_final = not engine.is_preview
+            display = Display(engine, render, self.exported.scene, self.passes, self.layer, watch if is_final else None)
             display.run()
             report = reports.collect(render.report(), self.exported, warnings)
-        if not engine.is_preview:
-            reports.publish(engine, report)
+        if is_final:
+            reports.publish(engine, report, self.layer)
 
 
 @dataclass(frozen=True)
@@ -57,7 +62,7 @@ class ExportJob:
     def run(self, engine: bpy.types.RenderEngine) -> None:
         write_scene(self.exported.scene, self.path)
         begin_and_end_result(engine)
-        reports.publish(engine, reports.collect({}, self.exported, []))
+        reports.publish(engine, reports.collect({}, self.exported, []), "")
 
 
 # The scene file that the next render is to write, set by the export operator.

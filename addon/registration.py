@@ -3,12 +3,12 @@
 
 import atexit
 
-from . import engine, failure, hexfield, moons, operators, properties, reports, ui
+from . import curve_files, engine, failure, hexfield, moons, operators, properties, reports, ui
 from .native import render
 from .viewport import redraw
 from .viewport import session as view_session
 
-_PARTS = (properties, failure, engine, redraw, operators, hexfield, moons, ui)
+_PARTS = (properties, reports, failure, curve_files, engine, redraw, operators, hexfield, moons, ui)
 _registered: list[object] = []
 
 
@@ -34,6 +34,5 @@ def unregister() -> None:
     atexit.unregister(unregister)
     atexit.unregister(_close_all)
     _close_all()
-    reports.clear()
     while _registered:
         _registered.pop().unregister()  # type: ignore[attr-defined]

@@ -1,21 +1,36 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a render has to say beyond its picture: for the info log, for the panel, and for scripts."""
+"""What a render has to say beyond its picture: for the info log, for the panels, for scripts, and for its files."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import bpy
+from bpy.app.handlers import persistent
 
 from .export.scene import Exported
+from .film.display import clock, error_text
+from .film.stamp import fields
 
-_last: dict[str, Any] = {}
+_current: dict[str, dict[str, Any]] = {"last": {}}
+_layers: dict[str, dict[str, Any]] = {}  # of the render that is under way or was the last
+_news = {"count": 0}
 
 
 def last() -> dict[str, Any]:
     """The report of the last render of this process: the engine's (see the scene file's documentation), and `export`
-    with seconds, bytes and notices."""
-    return _last
+    with seconds, bytes and notices. While it renders, as far as it is."""
+    return _current["last"]
+
+
+def layers() -> dict[str, dict[str, Any]]:
+    """The same for each view layer of the last render."""
+    return _layers
+
+
+def news() -> int:
+    """Another number whenever there is something new."""
+    return _news["count"]
 
 
 def collect(engine_report: dict[str, Any], exported: Exported, warnings: list[str]) -> dict[str, Any]:
@@ -29,17 +44,23 @@ def collect(engine_report: dict[str, Any], exported: Exported, warnings: list[st
     return report
 
 
-def publish(engine: bpy.types.RenderEngine, report: dict[str, Any]) -> None:
-    _last.clear()
-    _last.update(report)
+def update(report: dict[str, Any], layer: str) -> None:
+    """May come from Blender's render thread: dictionaries are replaced, never changed while somebody reads them."""
+    _current["last"] = report
+    _layers[layer] = report
+    _news["count"] += 1
+
+
+def publish(engine: bpy.types.RenderEngine, report: dict[str, Any], layer: str) -> None:
+    update(report, layer)
+    result = engine.get_result()
+    if result is not None:
+        for name, value in fields(report, layer):
+            result.stamp_data_add_field(name, value)
     for line in [*report["export"]["notices"], *report["warnings"]]:
         engine.report({"WARNING"}, f"Glimmer: {line}")
     if report.get("biased_by"):
         engine.report({"INFO"}, f"Glimmer: biased by {', '.join(report['biased_by'])}")
-
-
-def clear() -> None:
-    _last.clear()
 
 
 def summary(report: dict[str, Any]) -> list[str]:
@@ -50,9 +71,41 @@ def summary(report: dict[str, Any]) -> list[str]:
         lines.append(f"{report['spp']} samples in {seconds.get('render', 0.0):.1f} s")
     export = report["export"]
     lines.append(f"Scene read in {export['seconds']:.2f} s, {export['bytes'] / 2**20:.1f} MB")
-    error = report.get("error")
-    if error and error.get("relmse") is not None:
-        lines.append(f"Error (relMSE) {error['relmse']:.2g}, at most {error['high']:.2g}")
+    if report.get("biased_by"):
+        lines.append(f"Biased by {', '.join(report['biased_by'])}")
     if report.get("left_out"):
         lines.append(f"Left out: {', '.join(report['left_out'])}")
     return lines
+
+
+def error_summary(report: dict[str, Any]) -> list[str]:
+    """How wrong the picture is, and how long until it is half as wrong."""
+    error = report.get("error")
+    if not error:
+        return ["Not known before there are some samples"]
+    known_at = report["curve"][-1][0]  # the error is that of the last doubling
+    seconds = max(2.0 * known_at - report["seconds"]["render"], 0.0)
+    return [
+        f"relMSE {error_text(error['relmse'], error['low'], error['high'])}",
+        f"Half of it after {clock(seconds)} more, if it falls as 1/time",
+    ]
+
+
+def clear() -> None:
+    _current["last"] = {}
+    _layers.clear()
+    _news["count"] += 1
+
+
+@persistent  # type: ignore[untyped-decorator]
+def _on_render_pre(*_: object) -> None:
+    clear()
+
+
+def register() -> None:
+    bpy.app.handlers.render_pre.append(_on_render_pre)
+
+
+def unregister() -> None:
+    bpy.app.handlers.render_pre.remove(_on_render_pre)
+    clear()

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
@@ -27,15 +28,31 @@ MAX_REFRESH_SHARE = 0.05
 MAX_TILES = 16
 
 
-def status(progress: Progress, samples: int) -> str:
-    """The line that Blender shows while rendering."""
+def status(progress: Progress, samples: int, target_error: float = 0.0) -> str:
+    """The line that Blender shows while rendering. Limits of 0 are none."""
     parts = [f"Sample {progress.samples}/{samples}" if samples else f"Sample {progress.samples}"]
     if progress.seconds_left is not None:
         parts.append(f"Left {clock(progress.seconds_left)}")
     if not isnan(progress.relmse):
-        parts.append(f"Error {progress.relmse:.2g}")
+        parts.append(f"Error {error_text(progress.relmse, progress.relmse_low, progress.relmse_high)}")
+        if (seconds := seconds_to_target(progress, target_error)) is not None:
+            parts.append(f"Target in {clock(seconds)}")
     parts.append(f"Engine {progress.peak_bytes / 2**20:.0f} MB")
     return " | ".join(parts)
+
+
+def error_text(relmse: float, low: float | None, high: float | None) -> str:
+    if low is None or high is None or isnan(low) or isnan(high):
+        return f"{relmse:.2g}"
+    return f"{relmse:.2g} ({low:.2g} to {high:.2g})"
+
+
+def seconds_to_target(progress: Progress, target_error: float) -> float | None:
+    """Until the upper end of the interval is down at the target, if it falls as 1/time; None where nothing tells."""
+    if target_error <= 0.0 or not progress.relmse_high > 0.0:
+        return None
+    known_share = 2 ** (progress.samples.bit_length() - 1) / max(progress.samples, 1)  # the error is that of a doubling
+    return max(progress.seconds * (known_share * progress.relmse_high / target_error - 1.0), 0.0)
 
 
 def clock(seconds: float) -> str:
@@ -52,12 +69,15 @@ class Display:
         scene: SceneDescription,
         passes: tuple[RenderPass, ...],
         layer: str,
+        watch: Callable[[dict[str, Any]], None] | None = None,
     ) -> None:
+        """watch: is told the engine's report whenever there is a new one."""
         self._engine = engine
         self._render = render
         self._settings = scene.settings
         self._passes = passes
         self._layer = layer
+        self._watch = watch
         x0, y0, x1, y1 = scene.film.window
         self._whole = Tile(0, 0, x1 - x0, y1 - y0)
         self._material_indices = self._index_table(scene)
@@ -74,6 +94,7 @@ class Display:
         """Until the render has ended or the user has cancelled it; what is there by then is kept."""
         self._render.start()
         refresh_at = status_at = 0.0
+        told_samples = 0
         while True:
             if self._engine.test_break():
                 self._render.cancel()
@@ -81,16 +102,19 @@ class Display:
             if time.monotonic() >= status_at or progress.ended:
                 self._tell(progress)
                 status_at = time.monotonic() + STATUS_SECONDS
+                if self._watch is not None and progress.samples != told_samples:
+                    told_samples = progress.samples
+                    self._watch(self._render.report())
             if progress.ended:
                 break
-            if time.monotonic() >= refresh_at and progress.samples > 0:
+            if time.monotonic() >= refresh_at:
                 refresh_at = self._refresh()
             self._render.wait(POLL_SECONDS)
         self._render.wait(-1.0)
         self._show(self._whole, final=True)
 
     def _tell(self, progress: Progress) -> None:
-        self._engine.update_stats("", status(progress, self._settings.samples))
+        self._engine.update_stats("", status(progress, self._settings.samples, self._settings.target_error))
         self._engine.update_progress(progress.fraction)
         megabytes = progress.peak_bytes / 2**20
         self._engine.update_memory_stats(memory_used=megabytes, memory_peak=megabytes)

@@ -30,6 +30,7 @@ class Progress:
     seconds: float
     seconds_left: float | None  # None when nothing tells
     relmse: float = nan  # NaN when not known
+    relmse_low: float = nan  # its interval
     relmse_high: float = nan
     peak_bytes: int = 0
     invalid_samples: int = 0
@@ -125,6 +126,7 @@ class NativeRender:
             seconds=desc.seconds,
             seconds_left=desc.seconds_left if desc.seconds_left >= 0 else None,
             relmse=desc.relmse,
+            relmse_low=desc.relmse_low,
             relmse_high=desc.relmse_high,
             peak_bytes=desc.peak_bytes,
             invalid_samples=desc.invalid_samples,

@@ -91,6 +91,12 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         min=0,
         soft_max=1024,
     )
+    use_curve_files: bpy.props.BoolProperty(
+        name="Write Error Curve",
+        description="Write how the error fell with time beside every picture that a render writes, as"
+        " PICTURE.error.csv and PICTURE.error.png",
+        default=False,
+    )
     tile_size: bpy.props.IntProperty(
         name="Tile Size",
         description="Side of the tiles in which the picture appears, in pixels. Changes no pixel",

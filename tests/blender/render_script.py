@@ -125,9 +125,10 @@ def animation() -> None:
     moon.keyframe_insert("location", frame=3)
     inside.render(OUT / "fixed_", animation=True)
     facts["meshes_kept"] = sum(len(cache) for cache in native_render._meshes.values())
-    scene.glimmer.use_seed_per_frame = True
+    scene.glimmer.use_seed_per_frame = scene.glimmer.use_curve_files = True
     inside.render(OUT / "per_frame_", animation=True)
-    scene.glimmer.use_seed_per_frame = False
+    scene.glimmer.use_seed_per_frame = scene.glimmer.use_curve_files = False
+    facts["last_curve"] = reports.last()["curve"]
 
 
 def hexagon_field() -> None:

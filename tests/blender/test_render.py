@@ -179,3 +179,29 @@ def test_the_report_is_whole(facts: dict[str, Any]) -> None:
     assert report["biased_by"] == []
     assert report["export"]["seconds"] >= 0.0
     assert report["export"]["notices"] == []
+
+
+def test_the_file_tells_how_it_was_made(out: Path, facts: dict[str, Any]) -> None:
+    report = facts["report"]
+    image = OpenImageIO.ImageInput.open(str(out / "full.exr"))
+    assert image is not None, OpenImageIO.geterror()
+    attributes = {item.name: str(item.value) for item in image.spec().extra_attribs}
+    assert attributes["glimmer.ViewLayer.samples"] == "8"
+    assert attributes["glimmer.ViewLayer.seed"] == "0"
+    assert attributes["glimmer.ViewLayer.engine"] == report["engine"]
+    assert attributes["glimmer.ViewLayer.biased_by"] == "nothing"
+    for name in ("relmse", "low", "high"):
+        assert float(attributes[f"glimmer.ViewLayer.error.{name}"]) == pytest.approx(report["error"][name], rel=1e-5)
+    assert float(attributes["glimmer.ViewLayer.seconds"]) == pytest.approx(report["seconds"]["render"], rel=1e-5)
+
+
+def test_the_error_curve_stands_beside_every_frame_where_it_is_asked_for(out: Path, facts: dict[str, Any]) -> None:
+    assert not list(out.glob("fixed_*.error.*")) and not list(out.glob("full*.error.*"))
+    for frame in (1, 2, 3):
+        rows = (out / f"per_frame_{frame:04d}.error.csv").read_text().splitlines()
+        assert rows[0] == "seconds,cpu_seconds,spp,relmse,low,high"
+        assert [row.split(",")[2] for row in rows[1:]] == ["2", "4", "8"]
+        picture = OpenImageIO.ImageInput.open(str(out / f"per_frame_{frame:04d}.error.png"))
+        assert picture is not None, OpenImageIO.geterror()
+    last = [float(cell) for cell in rows[-1].split(",")]
+    assert last == pytest.approx(facts["last_curve"][-1], rel=1e-6)

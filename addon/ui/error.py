@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How wrong the picture is: in numbers, and as a curve that grows while it renders."""
+
+from typing import Any
+
+import bpy
+import bpy.utils.previews
+import numpy as np
+
+from .. import reports
+from ..film.curve import plot, points_of
+from .panel import GlimmerPanel
+
+SIDE = 320  # pixels of the plot
+SCALE = 11.0  # of the plot in the panel, in rows
+LOOK_SECONDS = 0.5
+
+_previews: dict[str, Any] = {}
+_shown = {"news": -1, "redrawn": -1}
+
+
+def _icon(report: dict[str, Any]) -> int:
+    """The plot as Blender's panels can show one."""
+    if not _previews:
+        _previews["all"] = bpy.utils.previews.new()
+    previews = _previews["all"]
+    preview = previews.get("curve") or previews.new("curve")
+    if _shown["news"] != reports.news():
+        _shown["news"] = reports.news()
+        pixels = np.ones((SIDE, SIDE, 4), np.float32)
+        pixels[..., :3] = plot(points_of(report), SIDE, SIDE)[::-1] / np.float32(255.0)
+        preview.image_size = (SIDE, SIDE)
+        preview.image_pixels_float.foreach_set(pixels.reshape(-1))
+    return int(preview.icon_id)
+
+
+class GLIMMER_PT_error(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Error"
+    bl_context = "render"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        report = reports.last()
+        column = self.layout.column(align=True)
+        if "spp" in report:
+            for line in reports.error_summary(report):
+                column.label(text=line)
+            if points_of(report):
+                self.layout.template_icon(icon_value=_icon(report), scale=SCALE)
+        else:
+            column.label(text="Nothing rendered yet")
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        self.layout.prop(context.scene.glimmer, "use_curve_files")
+
+
+def _look() -> float:
+    """Redraws the properties when a render that goes on has told something new."""
+    if _shown["redrawn"] != reports.news():
+        _shown["redrawn"] = reports.news()
+        for window in bpy.context.window_manager.windows:
+            for area in window.screen.areas:
+                if area.type == "PROPERTIES":
+                    area.tag_redraw()
+    return LOOK_SECONDS
+
+
+def register() -> None:
+    bpy.utils.register_class(GLIMMER_PT_error)
+    if not bpy.app.background:
+        bpy.app.timers.register(_look, first_interval=LOOK_SECONDS, persistent=True)
+
+
+def unregister() -> None:
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+    if _previews:
+        bpy.utils.previews.remove(_previews.pop("all"))
+    _shown["news"] = -1
+    bpy.utils.unregister_class(GLIMMER_PT_error)
