@@ -78,7 +78,7 @@ RTCRay embree_ray(const Ray &ray) {
     RTCRay r{};
     r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
     r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-    r.tnear = 0;
+    r.tnear = std::numeric_limits<float>::min(); // not 0: a camera on a surface is not within it
     r.tfar = ray.t_max;
     r.mask = ~0u;
     return r;

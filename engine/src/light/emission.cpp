@@ -33,8 +33,9 @@ std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f 
         const AliasSample choice = l->choice.sample(u_choice);
         const MeshLight::Triangle &t = l->triangles[choice.index];
         const Barycentrics w = sample_triangle_barycentrics(u_position);
-        const Vec3f position = t.vertices[0] * w.b0 + t.vertices[1] * w.b1 + t.vertices[2] * w.b2;
-        const Vec3d scaled = cross(Vec3d(t.vertices[1] - t.vertices[0]), Vec3d(t.vertices[2] - t.vertices[0]));
+        const Vec3f position(t.vertices[0] * double(w.b0) + t.vertices[1] * double(w.b1) +
+                             t.vertices[2] * double(w.b2));
+        const Vec3d scaled = cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
         const double twice_area = length(scaled);
         const Vec3f normal = Vec3f(scaled / twice_area) * (choice.rest < 0.5f ? 1.0f : -1.0f);
         Emission e = from_surface(position, normal, t.error, t.radiance, twice_area, u_direction); // both sides

@@ -13,12 +13,20 @@ namespace glimmer {
 
 namespace {
 
+constexpr double kPiDouble = 3.14159265358979323846;
+
 float falloff(const std::optional<SpotCone> &cone, const Vec3f &from_light) {
     return cone ? cone->falloff(from_light) : 1.0f;
 }
 
 RectangleShape seen_from(const AreaLamp &light, const Vec3d &x) {
     return {light.center - light.half_x - light.half_y - x, light.half_x * 2.0, light.half_y * 2.0};
+}
+
+/// Intensity of a surface, for bounds. Radiance times area may be beyond float32 though a picture of it is not; it only
+/// guides choices, so it is capped there (infinite weights would make every share of them NaN).
+float bounded_strength(const Rgb &radiance, double area) {
+    return float(std::min(double(luminance(radiance)) * area, 1e30));
 }
 
 /// Where a direction stands in an equirectangular picture: centre along +y, z up; u to the right, v down, both 0 to 1.
@@ -40,7 +48,7 @@ std::optional<LightSample> sample(const SphereLight &light, const Vec3f &x, Vec2
 std::optional<LightSample> sample(const MeshLight &light, const Vec3f &x, Vec2f u) {
     const AliasSample choice = light.choice.sample(u.x, u.y);
     const MeshLight::Triangle &t = light.triangles[choice.index];
-    const Vec3d at(x), a = Vec3d(t.vertices[0]) - at, b = Vec3d(t.vertices[1]) - at, c = Vec3d(t.vertices[2]) - at;
+    const Vec3d at(x), a = t.vertices[0] - at, b = t.vertices[1] - at, c = t.vertices[2] - at;
     const auto s = sample_triangle(a, b, c, {choice.rest, u.y});
     if (!s)
         return std::nullopt;
@@ -137,8 +145,7 @@ float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint
         return pdf_sphere(l->sphere.center - at, l->sphere.radius);
     if (const auto *l = std::get_if<MeshLight>(&light)) {
         const MeshLight::Triangle &t = l->triangles[triangle];
-        const double area =
-            0.5 * length(cross(Vec3d(t.vertices[1] - t.vertices[0]), Vec3d(t.vertices[2] - t.vertices[0])));
+        const double area = 0.5 * length(cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]));
         const double d = double(distance);
         return l->choice.pmf(triangle) * float(pdf_area_to_solid_angle(d * d, double(cosine), area));
     }
@@ -201,19 +208,21 @@ LightBound bound_light(const Light &light) {
     LightBound b;
     if (const auto *l = std::get_if<SphereLight>(&light)) {
         const auto r = float(l->sphere.radius);
-        b = {Vec3f(l->sphere.center), r, false, luminance(l->radiance) * kPi * r * r};
+        b = {Vec3f(l->sphere.center), r, false,
+             bounded_strength(l->radiance, kPiDouble * l->sphere.radius * l->sphere.radius)};
     } else if (const auto *l = std::get_if<MeshLight>(&light)) {
         b = {l->center, l->radius, false, luminance(l->intensity)};
     } else if (const auto *l = std::get_if<PointLamp>(&light)) {
         b = {l->position, 0, false, luminance(l->intensity)};
     } else if (const auto *l = std::get_if<BallLamp>(&light)) {
         const auto r = float(l->sphere.radius);
-        b = {Vec3f(l->sphere.center), r, false, luminance(l->radiance) * kPi * r * r};
+        b = {Vec3f(l->sphere.center), r, false,
+             bounded_strength(l->radiance, kPiDouble * l->sphere.radius * l->sphere.radius)};
     } else if (const auto *l = std::get_if<AreaLamp>(&light)) {
         const double x = length(l->half_x), y = length(l->half_y);
-        const auto area = float(l->ellipse ? 3.14159265358979323846 * x * y : 4 * x * y);
+        const double area = l->ellipse ? kPiDouble * x * y : 4 * x * y;
         b = {Vec3f(l->center), float(l->ellipse ? std::max(x, y) : std::hypot(x, y)), false,
-             luminance(l->radiance) * area};
+             bounded_strength(l->radiance, area)};
     } else if (const auto *l = std::get_if<SunLamp>(&light)) {
         b.infinite = true;
         b.strength = luminance(l->irradiance);

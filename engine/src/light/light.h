@@ -60,7 +60,7 @@ struct SphereLight {
 /// All emissive triangles of the scene, chosen by power.
 struct MeshLight {
     struct Triangle {
-        std::array<Vec3f, 3> vertices;
+        std::array<Vec3d, 3> vertices; ///< float64: a light a millionth of its distance wide keeps its area
         Rgb radiance;
         float error; ///< of positions on it
     };

@@ -30,6 +30,15 @@ std::optional<SpotCone> cone_of(const LightDescription &light) {
     return cone;
 }
 
+/// Where the instance, as it is in float32, has a point of its mesh: rounded there, the edges of a small and distant
+/// triangle would be noise.
+Vec3d in_float64(const Instance &instance, const Vec3f &point) {
+    const Vec3d p(point);
+    return Vec3d(dot(Vec3d(instance.linear[0]), p), dot(Vec3d(instance.linear[1]), p),
+                 dot(Vec3d(instance.linear[2]), p)) +
+           Vec3d(instance.translation);
+}
+
 } // namespace
 
 void SceneBuilder::add_sphere_lights(std::vector<Light> &lights) const {
@@ -64,10 +73,10 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
             float local = 0;
             for (size_t k = 0; k < 3; ++k) {
                 const Vec3f &v = instance.mesh->vertices[instance.mesh->triangles[t][k]];
-                out.vertices[k] = instance.to_world(v);
-                local = std::max(local, max_abs(out.vertices[k]));
+                out.vertices[k] = in_float64(instance, v);
+                local = std::max(local, max_abs(Vec3f(out.vertices[k])));
             }
-            const Vec3d a(out.vertices[0]), b(out.vertices[1]), c(out.vertices[2]);
+            const auto &[a, b, c] = out.vertices;
             const double area = 0.5 * length(cross(b - a, c - a));
             out.radiance = emission(t);
             out.error = 0x1p-20f * (local + max_abs(instance.translation));
@@ -105,9 +114,10 @@ void SceneBuilder::add_lamps(std::vector<Light> &lights) {
         switch (l.type) {
         case GLIMMER_POINT:
         case GLIMMER_SPOT:
-            if (l.radius > 0)
-                lights.push_back(
-                    BallLamp{{position, l.radius}, color * float(1 / (kPiDouble * l.radius * l.radius)), cone_of(l)});
+            // So small that its radiance is beyond float32, it is a point.
+            if (const double per_intensity = 1 / (kPiDouble * l.radius * l.radius);
+                l.radius > 0 && per_intensity * double(max_component(color)) < 1e38)
+                lights.push_back(BallLamp{{position, l.radius}, color * float(per_intensity), cone_of(l)});
             else
                 lights.push_back(PointLamp{Vec3f(position), color, cone_of(l)});
             break;
