@@ -342,6 +342,16 @@ def bench(blender: str | None, quick: bool, cycles: bool, output: Path | None) -
     run([*command, "--said", " ".join(said)], env=host_environment(BUILD / "profile", executable))
 
 
+def check(quick: bool, integrator: str, only: str | None, report: Path | None) -> None:
+    install_packages(wanted_packages(("build", "test"), None))
+    build()
+    options = [*(["--quick"] if quick else []), *(["--integrator", integrator] if integrator != "path" else [])]
+    options += ["--only", only] if only is not None else []
+    command: list[str | Path] = [virtual_environment("test"), "-m", "tests.check", *options]
+    command += ["--report", report] if report is not None else []
+    run([*command, "--said", shlex.join(["python3", "build.py", "check", *options])])
+
+
 def addon_version() -> str:
     found = re.search(r'^version\s*=\s*"([^"]+)"', (ADDON / "blender_manifest.toml").read_text(), re.MULTILINE)
     if not found:
@@ -421,6 +431,11 @@ def arguments() -> argparse.ArgumentParser:
     item.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="for the page and its plot (default: build/bench)"
     )
+    item = command("check", "Render stiff and extreme scenes whose pictures are known by a formula; print a table.")
+    item.add_argument("--quick", action="store_true", help="the short tier, which the tests run too")
+    item.add_argument("--integrator", choices=("path", "report"), default="path")
+    item.add_argument("--only", metavar="TEXT", help="the cases whose name holds it")
+    item.add_argument("--report", type=Path, metavar="FOLDER", help="also write check.md and check.json there")
     command("lint", "Check style, types and compiler warnings: ruff, mypy, clang-format, -Werror.")
     command("package", "Make the add-on's zip, with the library inside; prints its path.")
     command("clean", "Remove build/.")
@@ -454,6 +469,9 @@ def main(argv: Sequence[str]) -> int:
         elif given.command == "bench":
             output = given.output.absolute() if given.output else None
             bench(given.blender, given.quick, not given.no_cycles, output)
+        elif given.command == "check":
+            report = given.report.absolute() if given.report else None
+            check(given.quick, given.integrator, given.only, report)
         elif given.command == "lint":
             lint()
         elif given.command == "package":

@@ -35,7 +35,7 @@ def test_imports_nothing_but_the_standard_library() -> None:
 
 def test_help_names_every_command() -> None:
     text = build_py("--help").stdout
-    for command in ("setup", "build", "render", "test", "bench", "lint", "package", "clean"):
+    for command in ("setup", "build", "render", "test", "bench", "check", "lint", "package", "clean"):
         assert re.search(rf"^ +{command} ", text, re.MULTILINE), command
         assert build_py(command, "--help").stdout.startswith(f"usage: build.py {command}")
 
@@ -208,3 +208,9 @@ def test_ci_runs_lint_and_the_tests() -> None:
     assert "set -euo pipefail" in script
     commands = re.findall(r"^python3 build\.py (.*)$", script, re.MULTILINE)
     assert commands == ["lint", "test"]
+
+
+def test_check_passes_its_options_on() -> None:
+    done = build_py("check", "--only", "no such case")
+    assert done.returncode == 1
+    assert "--only no such case: no case's name holds that" in done.stdout + done.stderr

@@ -22,6 +22,11 @@ def unit(v: ArrayLike) -> Array:
     return a / np.linalg.norm(a)
 
 
+def at(theta: float, azimuth: float = 0.4) -> Array:
+    """A unit vector at theta from +z."""
+    return np.array([np.sin(theta) * np.cos(azimuth), np.sin(theta) * np.sin(azimuth), np.cos(theta)])
+
+
 def look_at(origin: ArrayLike, target: ArrayLike, up: Vector = (0, 0, 1)) -> Array:
     """(4, 4): a camera at `origin` that looks at `target`."""
     o = np.asarray(origin, np.float64)

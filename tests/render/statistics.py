@@ -12,6 +12,8 @@ import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from enum import Enum
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -63,12 +65,25 @@ class Measurement:
     max_scatter: int = -1
 
 
+class Clock:
+    """Adds up the engine's CPU seconds over renders."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+        self._lock = Lock()
+
+    def add(self, seconds: float) -> None:
+        with self._lock:
+            self.seconds += seconds
+
+
 class Pictures:
     """Renders of one committed scene, one a seed."""
 
-    def __init__(self, measurement: Measurement) -> None:
+    def __init__(self, measurement: Measurement, clock: Clock | None = None) -> None:
         self._measurement = measurement
         self._scene = Scene(measurement.scene)
+        self._clock = clock or Clock()
 
     def __call__(self, seed: int) -> Array:
         """(height, width, 3) float64. Fails where a sample was not finite."""
@@ -85,6 +100,9 @@ class Pictures:
             progress = render.run().poll()
             assert progress.state == State.FINISHED and progress.samples == m.samples
             assert progress.invalid_samples == 0, render.report()["invalid_samples"]
+            biased_by = render.report()["biased_by"]
+            assert m.max_depth >= 0 or m.max_scatter >= 0 or not biased_by, f"biased by {biased_by}"
+            self._clock.add(progress.cpu_seconds)
             picture = render.read().astype(np.float64)
         assert np.isfinite(picture).all()
         return picture
@@ -95,37 +113,104 @@ def repeat(estimate: Callable[[int], ArrayLike], seeds: int, first: int = 0) -> 
     return np.array(list(pool.map(estimate, range(first, first + seeds))), np.float64)
 
 
+class Verdict(Enum):
+    PASSES = "passes"
+    FAILS = "fails"
+    NO_EVIDENCE = "no evidence"
+
+
 @dataclass(frozen=True)
-class _Verdict:
+class Interval:
+    """What some seeds said."""
+
     rejected: bool
     reached: float
     """Half-width of the widest interval, relative to what is expected."""
     text: str
+    seeds: int = 0
+    mean: Array = field(default_factory=lambda: np.zeros(0))
+    error: Array = field(default_factory=lambda: np.zeros(0))
+    """Standard errors of the means."""
+    worst: int = 0
+    """Which number is furthest from what it should be, in units of what it may be off."""
 
 
-def _decide(run: Callable[[int, int], _Verdict], within: float, what: str) -> None:
+@dataclass(frozen=True)
+class Comparison:
+    verdict: Verdict
+    interval: Interval
+
+
+def _decide(run: Callable[[int, int], Interval], within: float, most_seeds: int = MOST_SEEDS) -> Comparison:
     """run(seeds, first): the verdict of so many seeds from `first` on."""
 
     def seeds_needed(seeds: int, reached: float) -> int:
         needed = 2 * seeds * (reached / within) ** 2 if within > 0 else 0
-        return int(np.clip(np.ceil(needed), FEWEST_SEEDS, MOST_SEEDS))
+        return int(np.clip(np.ceil(needed), FEWEST_SEEDS, most_seeds))
 
     first, repeated = 0, False
     seeds = seeds_needed(PILOT_SEEDS, run(PILOT_SEEDS, PILOT).reached)
     while True:
-        verdict = run(seeds, first)
+        interval = run(seeds, first)
         first += FRESH
-        if verdict.reached > within:
+        if interval.reached > within:
             # The pilot had met none of the tail. What it took to see that is another pilot.
-            assert seeds < MOST_SEEDS and within > 0, (
-                f"{what}: no evidence: known to {verdict.reached:.2%} only, {within:.2%} wanted; {verdict.text}"
-            )
-            seeds = max(seeds_needed(seeds, verdict.reached), min(2 * seeds, MOST_SEEDS))
-        elif not verdict.rejected:
-            return
+            if seeds >= most_seeds or within <= 0:
+                return Comparison(Verdict.NO_EVIDENCE, interval)
+            seeds = max(seeds_needed(seeds, interval.reached), min(2 * seeds, most_seeds))
+        elif not interval.rejected:
+            return Comparison(Verdict.PASSES, interval)
+        elif repeated:
+            return Comparison(Verdict.FAILS, interval)
         else:
-            assert not repeated, f"{what}: {verdict.text}"
             repeated = True
+
+
+def _must_pass(comparison: Comparison, within: float, what: str) -> None:
+    interval = comparison.interval
+    assert comparison.verdict is not Verdict.NO_EVIDENCE, (
+        f"{what}: no evidence: known to {interval.reached:.2%} only, {within:.2%} wanted; {interval.text}"
+    )
+    assert comparison.verdict is Verdict.PASSES, f"{what}: {interval.text}"
+
+
+def compare_mean(
+    estimate: Callable[[int], ArrayLike],
+    expected: ArrayLike,
+    *,
+    level: float,
+    within: float,
+    rounding: float = ROUNDING,
+    most_seeds: int = MOST_SEEDS,
+) -> Comparison:
+    """The mean over seeds of estimate(seed), (k) numbers or one, against `expected`, each at `level`.
+
+    within: the widest relative half-width of the interval that still counts as evidence. rounding: relative error of
+    float32 that comes on top. Where 0 is expected, every estimate must be 0.
+    """
+    e: Array = np.atleast_1d(np.asarray(expected, np.float64))
+    dark = e == 0
+
+    def run(seeds: int, first: int) -> Interval:
+        values = np.broadcast_to(repeat(estimate, seeds, first).reshape(seeds, -1), (seeds, len(e)))
+        assert not values[:, dark].any(), f"{np.abs(values[:, dark]).max():.3g} where nothing is expected"
+        assert np.isfinite(values).all(), "a number that is not finite"
+        mean, error = values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(seeds)
+        half_width = stats.t.isf(level / 2, seeds - 1) * error
+        off, slack = np.abs(mean - e), half_width + rounding * np.abs(e)
+        worst = int(np.argmax(off / np.where(dark, 1, slack + 1e-300)))
+        return Interval(
+            bool((off > slack).any()),
+            float((half_width[~dark] / np.abs(e[~dark])).max(initial=0)),
+            f"{mean[worst]:.8g} +- {error[worst]:.2g} (standard error, {seeds} seeds), expected {e[worst]:.8g},"
+            f" off by {(mean[worst] - e[worst]) / max(abs(e[worst]), 1e-300):+.3%}",
+            seeds,
+            mean,
+            error,
+            worst,
+        )
+
+    return _decide(run, within, most_seeds)
 
 
 def check_mean(
@@ -136,30 +221,10 @@ def check_mean(
     rounding: float = ROUNDING,
     what: str = "",
 ) -> None:
-    """The mean over seeds of estimate(seed), (k) numbers or one, against `expected`.
-
-    within: the widest relative half-width of the interval that still counts as evidence. rounding: relative error of
-    float32 that comes on top. Where 0 is expected, every estimate must be 0.
-    """
-    e: Array = np.atleast_1d(np.asarray(expected, np.float64))
-    level = _budget.take(len(e))
-    dark = e == 0
-
-    def run(seeds: int, first: int) -> _Verdict:
-        values = np.broadcast_to(repeat(estimate, seeds, first).reshape(seeds, -1), (seeds, len(e)))
-        assert not values[:, dark].any(), f"{what}: {values[:, dark].max():.3g} where nothing is expected"
-        mean, error = values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(seeds)
-        half_width = stats.t.isf(level / 2, seeds - 1) * error
-        off, slack = np.abs(mean - e), half_width + rounding * np.abs(e)
-        worst = int(np.argmax(off / np.where(dark, 1, slack + 1e-300)))
-        return _Verdict(
-            bool((off > slack).any()),
-            float((half_width[~dark] / np.abs(e[~dark])).max(initial=0)),
-            f"{mean[worst]:.8g} +- {error[worst]:.2g} (standard error, {seeds} seeds), expected {e[worst]:.8g},"
-            f" off by {(mean[worst] - e[worst]) / max(abs(e[worst]), 1e-300):+.3%}",
-        )
-
-    _decide(run, within, what)
+    """compare_mean must pass; its level is a share of this run's."""
+    level = _budget.take(np.size(expected))
+    comparison = compare_mean(estimate, expected, level=level, within=within, rounding=rounding)
+    _must_pass(comparison, within, what)
 
 
 def check_same(
@@ -176,7 +241,7 @@ def check_same(
     numbers = np.size(a(PILOT)) + 1
     level = _budget.take(numbers)
 
-    def run(seeds: int, first: int) -> _Verdict:
+    def run(seeds: int, first: int) -> Interval:
         means, variances = [], []
         for k, estimate in enumerate((a, b)):
             values = repeat(lambda seed, e=estimate, k=k: np.ravel(e(2 * seed + k)), seeds, first)  # type: ignore[misc]
@@ -189,14 +254,14 @@ def check_same(
         half_width = stats.t.isf(level / 2, np.maximum(degrees, 1)) * np.sqrt(total)
         off, slack = np.abs(means[0] - means[1]), half_width + ROUNDING * scale
         worst = int(np.argmax(off / (slack + 1e-300)))
-        return _Verdict(
+        return Interval(
             bool((off > slack).any()),
             float(half_width[-1] / scale[-1]),
             f"{int((off > slack).sum())} of {numbers} differ; the worst, {worst}: {means[0][worst]:.6g} against"
             f" {means[1][worst]:.6g}, {off[worst] / np.sqrt(total[worst] + 1e-300):.1f} standard errors, {seeds} seeds",
         )
 
-    _decide(run, within, what)
+    _must_pass(_decide(run, within), within, what)
 
 
 def check_radiance(

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from addon.scene import description as d
 from tests.render import closed_forms as exact
-from tests.render.build import BLACK, WHITE, Builder, floor, grey, octahedron, quad, radiometer, sky, unit
+from tests.render.build import BLACK, WHITE, Builder, at, floor, grey, octahedron, quad, radiometer, sky, unit
 from tests.render.statistics import INTEGRATORS, ROUNDING, Measurement, check_radiance
 
 pytestmark = pytest.mark.parametrize("integrator", INTEGRATORS)
@@ -25,10 +25,6 @@ EXACT = 1e-4
 def plate(eye: ArrayLike = (0.3, -2, 0.7), **parts: Any) -> Builder:
     """A large plate at z = 0 seen at the origin."""
     return Builder(radiometer(eye, (0, 0, 0)), **parts).mesh(floor(), d.Lambert(ALBEDO))
-
-
-def at(theta: float, azimuth: float = 0.4) -> NDArray[Any]:
-    return np.array([np.sin(theta) * np.cos(azimuth), np.sin(theta) * np.sin(azimuth), np.cos(theta)])
 
 
 def frame(center: ArrayLike, target: ArrayLike) -> NDArray[Any]:

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the cases expect, derived a second time."""
+
+import numpy as np
+import pytest
+
+from tests.check import formulas
+from tests.render import closed_forms as exact
+
+SIGMAS = 4.5
+"""A right formula is further from one walk than this once in 150 000 seeds."""
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.03])
+def test_integrating_sphere(ratio: float) -> None:
+    mean, error = formulas.integrating_sphere_walk(0.999, ratio, 20_000)
+    assert error < 0.01
+    assert abs(formulas.integrating_sphere(0.999, ratio) - mean) < SIGMAS * error
+
+
+@pytest.mark.parametrize("degrees", [1, 45, 80, 89])
+def test_fresnel_and_slab(degrees: float) -> None:
+    cosine = float(np.cos(np.radians(degrees)))
+    r = exact.fresnel(cosine, 1.5)
+    assert r == pytest.approx(formulas.fresnel_exact(cosine, 1.5), rel=1e-10)
+    assert formulas.slab_transmission(r) == pytest.approx(formulas.slab_transmission_series(r), rel=1e-12)
+
+
+@pytest.mark.parametrize("alpha", [1e-4, 1e-3, 1e-2, 0.1, 0.5, 1])
+@pytest.mark.parametrize("mu", [1, 0.5, 0.1, 0.01, 0.001])
+def test_metal(alpha: float, mu: float) -> None:
+    mean, error = formulas.ggx_albedo_walk(mu, alpha, 100_000)
+    assert error < 2e-3
+    assert abs(exact.ggx_albedo(mu, alpha) - mean) < SIGMAS * error + 2e-5
+
+
+@pytest.mark.parametrize(("c", "mu"), [(0.5, 1.0), (0.9, 0.1), (0.99, 0.5)])
+def test_half_space(c: float, mu: float) -> None:
+    """Iteration of the integral equation against the closed form."""
+    assert exact.half_space_albedo(c, mu) == pytest.approx(1 - np.sqrt(1 - c) * formulas.h_function(c, mu), rel=1e-9)
+
+
+@pytest.mark.parametrize(("c", "r"), [(0.5, 1), (0.9, 0.1), (0.9, 3), (0.99, 1), (0.999, 1)])
+def test_endless_fog(c: float, r: float) -> None:
+    """The Fourier integral against singular eigenfunctions."""
+    assert exact.infinite_fluence(c, r) == pytest.approx(formulas.infinite_fluence_modes(c, r), rel=1e-7)
+
+
+def test_endless_white_fog() -> None:
+    """The limit: what is left is of the order of the root of 3 (1 - c)."""
+    assert formulas.endless_fluence(1) == pytest.approx(formulas.infinite_fluence_modes(1 - 1e-10, 1), rel=4e-5)
+
+
+@pytest.mark.parametrize(("c", "depth", "mu"), [(0.9, 1.0, 0.5), (1.0, 10.0, 1.0)])
+def test_slab_of_fog(c: float, depth: float, mu: float) -> None:
+    """The integral equation against random walks; without absorption nothing is lost."""
+    quadrature = np.array([formulas.slab_albedo(c, depth, mu), formulas.slab_transmittance(c, depth, mu)])
+    walked = formulas.slab_walk(c, depth, mu, 100_000)
+    assert (walked[:, 1] < 2e-3).all()
+    assert (np.abs(quadrature - walked[:, 0]) < SIGMAS * walked[:, 1]).all()
+    if c == 1:
+        assert quadrature.sum() == pytest.approx(1, rel=1e-8)
+
+
+@pytest.mark.parametrize("sigma", [1e-8, 1e-4, 0.1, 3])
+def test_isotropic_airlight(sigma: float) -> None:
+    """Adaptive quadrature against the special function of Sun et al. (2005)."""
+    assert formulas.point_airlight_exact(sigma, sigma, 0, 1, 3, np.inf) == pytest.approx(
+        exact.sun_airlight(sigma, 1, 3), rel=1e-8
+    )
+
+
+@pytest.mark.parametrize("sigma", [0.1, 3])
+@pytest.mark.parametrize("g", [-0.99, -0.7, 0.7, 0.99])
+def test_airlight(g: float, sigma: float) -> None:
+    """Adaptive quadrature in the plane of ray and light against Gauss and Legendre in space."""
+    along = np.array([0, 1.0, 0])
+    assert formulas.point_airlight_exact(sigma, sigma, g, 1, 3, np.inf) == pytest.approx(
+        exact.point_airlight(sigma, sigma, g, (1, 3, 0), along, np.inf), rel=2e-5
+    )
