@@ -193,6 +193,15 @@ class ProgressDesc(ctypes.Structure):
         ("peak_bytes", c_uint64),
         ("invalid_samples", c_uint64),
         ("version", c_uint64),
+        ("heavy_tails", c_int),
+        ("largest_x", c_uint32),
+        ("largest_y", c_uint32),
+        ("largest_share", c_double),
+        ("rate", c_double),
+        ("rate_low", c_double),
+        ("rate_high", c_double),
+        ("seconds_to_half", c_double),
+        ("seconds_to_target", c_double),
     ]
 
 

@@ -27,6 +27,27 @@ std::string error_text(const glimmer_progress &progress) {
     return text;
 }
 
+std::string tails_text(const glimmer_progress &progress) {
+    if (!progress.heavy_tails)
+        return "";
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "not certifiable: heavy tails (%.0f %% of the error in one pixel of one replicate, at (%u, %u); at most "
+        "10 %%)",
+        100 * progress.largest_share, progress.largest_x, progress.largest_y);
+    return text;
+}
+
+std::string rate_text(const glimmer_progress &progress) {
+    if (std::isnan(progress.rate))
+        return "";
+    char text[96];
+    std::snprintf(text, sizeof text, "falls as time^%.2f (%.2f to %.2f)", -progress.rate, -progress.rate_high,
+                  -progress.rate_low);
+    return text;
+}
+
 ProgressLine::ProgressLine(bool quiet)
     : quiet_(quiet), is_terminal_(isatty(STDERR_FILENO) == 1),
       next_(Clock::now() + (is_terminal_ ? Clock::duration{} : kLineInterval)) {}
@@ -46,6 +67,12 @@ void ProgressLine::update(const glimmer_progress &progress) {
         line += "  " + clock_text(progress.seconds_left) + " left";
     if (const std::string error = error_text(progress); !error.empty())
         line += "  " + error;
+    if (progress.heavy_tails)
+        line += ", heavy tails";
+    else if (!std::isnan(progress.rate) && progress.seconds_to_half >= 0)
+        line += ", half in " + clock_text(progress.seconds_to_half);
+    if (progress.seconds_to_target >= 0)
+        line += ", at the target in " + clock_text(progress.seconds_to_target);
     std::fprintf(stderr, is_terminal_ ? "\r%s\x1b[K" : "%s\n", line.c_str());
     std::fflush(stderr);
     shown_ = is_terminal_;

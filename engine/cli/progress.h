@@ -29,5 +29,9 @@ class ProgressLine {
 
 /// "relMSE 0.0031 (0.0028 to 0.0035)", or "" while it is not known.
 std::string error_text(const glimmer_progress &progress);
+/// "not certifiable: heavy tails (34 % of the error in one pixel of one replicate, at (3, 5); at most 10 %)", or "".
+std::string tails_text(const glimmer_progress &progress);
+/// "falls as time^-0.98 (-1.06 to -0.91)", or "" while it is not known.
+std::string rate_text(const glimmer_progress &progress);
 
 } // namespace glimmer

@@ -56,11 +56,25 @@ bool ended(const glimmer_progress &progress) {
     return progress.state != GLIMMER_RUNNING && progress.state != GLIMMER_PAUSED;
 }
 
+/// Says once why a render whose error seems small enough goes on.
+void explain_going_on(const RenderOptions &options, const glimmer_progress &progress, bool &said, ProgressLine &line) {
+    if (said || !progress.heavy_tails || !(progress.relmse_high <= options.target_error))
+        return;
+    said = true;
+    line.say(options.output.string() + ": " + error_text(progress) + " seems to meet --error " +
+             number_text(options.target_error) + " but is " + tails_text(progress) + "; the render goes on" +
+             (options.samples || options.seconds > 0
+                  ? ""
+                  : ", without other limits until it is certifiable or interrupted"));
+}
+
 /// Waits for the end while it shows the progress, saves checkpoints and listens for SIGINT.
 void follow(glimmer_render *render, const RenderOptions &options, const std::string &scene_hash, ProgressLine &line) {
+    bool said = false;
     Clock::time_point last_checkpoint = Clock::now();
     for (glimmer_progress progress = poll(render); !ended(progress); progress = poll(render)) {
         line.update(progress);
+        explain_going_on(options, progress, said, line);
         if (interrupted()) {
             check(glimmer_render_cancel(render), "render");
             break;
@@ -90,9 +104,11 @@ void show_warnings(glimmer_scene *scene, const std::string &file, ProgressLine &
 std::string summary(const RenderOptions &options, const glimmer_progress &progress) {
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%.2f s", progress.seconds);
-    const std::string error = error_text(progress);
-    return options.output.string() + ": " + std::to_string(progress.samples) + " spp in " + seconds +
-           (error.empty() ? "" : ", " + error);
+    std::string text = options.output.string() + ": " + std::to_string(progress.samples) + " spp in " + seconds;
+    for (const std::string &part : {error_text(progress), tails_text(progress), rate_text(progress)})
+        if (!part.empty())
+            text += ", " + part;
+    return text;
 }
 
 void write_results(const RenderOptions &options, const LoadedScene &scene, glimmer_render *render,

@@ -269,7 +269,8 @@ typedef struct glimmer_render_desc {
     const char *integrator; /* null: the default */
     uint64_t samples;       /* per pixel; 0: no limit */
     double seconds;         /* render wall time; 0: no limit */
-    double target_error;    /* relMSE (upper end of its interval); 0: no limit. With no limit at all: 64 samples */
+    double target_error;    /* relMSE: its interval's upper end, at a doubling of the samples from 16 on, unless the
+                               tails are heavy; 0: no limit. With no limit at all: 64 samples */
     uint64_t seed;
     uint32_t threads;    /* 0: all */
     uint32_t tile_size;  /* pixels; 0: 64. Changes no pixel */
@@ -311,11 +312,19 @@ typedef struct glimmer_progress {
     double seconds;      /* wall time in the render so far, pauses left out */
     double seconds_left; /* estimate; negative when nothing tells */
     double cpu_seconds;
-    double relmse, relmse_low, relmse_high; /* NaN when not known */
+    double relmse, relmse_low, relmse_high; /* NaN when not known; the interval holds at all looks at once */
     uint64_t rays;
     uint64_t peak_bytes;      /* of the engine's own large arrays, or of the process where that is all that is known */
     uint64_t invalid_samples; /* NaN or infinite, left out of the means and named in the report */
     uint64_t version;         /* grows whenever a pixel changed */
+    /* Of the error, one pixel (x, y of the crop) of one replicate carries this share; NaN when not known. Above 0.1 the
+     * tails are too heavy to certify any interval, and target_error does not end the render. */
+    int heavy_tails;
+    uint32_t largest_x, largest_y;
+    double largest_share;
+    double rate, rate_low, rate_high; /* relmse falls as seconds^-rate; NaN when not known */
+    double seconds_to_half;           /* until relmse is half of what it was when last estimated; negative: not known */
+    double seconds_to_target;         /* until target_error ends the render; negative: not known */
 } glimmer_progress;
 
 GLIMMER_API void glimmer_progress_init(glimmer_progress *progress);

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a render says of its own error, against its true error in furnaces, where every pixel must be 1."""
+"""What a render says of its own error, against its true error: in furnaces, where every pixel must be 1, and on metal,
+where the mean of all the other renders says what it must be."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -7,10 +11,12 @@ from scipy import stats
 
 from addon.scene import description as d
 from tests.engine.library import Render, Scene
-from tests.render.build import BLACK, WHITE, Builder, camera, grey
+from tests.render.build import BLACK, WHITE, Builder, camera, floor, grey, hexagon, sky
 from tests.render.statistics import INTEGRATORS, Array, check_mean, pool, repeat
 
 PIXELS = 24
+SMALL = 24
+LEVEL, CONFIDENCE = 1e-3, 0.95
 
 
 def furnace() -> Scene:
@@ -46,23 +52,123 @@ def test_standard_errors(integrator: str, samples: int) -> None:
     check_mean(one_plus_difference, 1, within=0.1, what=f"{integrator} at {samples} samples")
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_relmse(integrator: str) -> None:
-    """The estimate and its 95 % interval against the true relMSE.
+def hazy_furnace() -> d.SceneDescription:
+    scene = Builder(camera((0.4, -1, 0.3), (0, 1, 0), 80), SMALL, SMALL, medium=d.Medium(BLACK, grey(0.3), 0.2))
+    return scene.sphere((0, 0, 0), 2, d.Light(WHITE)).sphere((0, 0.5, 0), 0.5, d.Lambert(WHITE)).done()
 
-    Each pixel's variance is divided by an estimated square, which makes the estimate low by about 1.5 relMSE of itself
-    here (18 % at 4 samples of `report`, 4 % at 16): the interval knows nothing of that, so it is tested at 64.
-    """
-    scene = furnace()
-    runs, samples = 128, 64
-    results = list(pool.map(lambda seed: measure(scene, integrator, samples, seed), range(runs)))
-    true = np.array([error.mean() / (1 + 1e-4) for error, _, _ in results])
-    claimed, low, high = np.array([interval for _, _, interval in results]).T
-    truth, unsure = true.mean(), 4 * stats.sem(true) / true.mean()
-    bias = claimed.mean() / truth - 1
-    slack = unsure + 2 * truth + 4 * stats.sem(claimed) / truth
-    assert slack < 0.06, f"no evidence: {slack:.1%}"
-    assert abs(bias) <= slack, f"the estimate is off by {bias:+.1%}, allowed: {slack:.1%}"
-    covered = int(((low <= truth) & (truth <= high)).sum())
-    assert stats.binom.cdf(covered, runs, 0.9) > 1e-3, f"the interval held the truth {covered} of {runs} times"
-    assert np.median(high / low) < 1.5, "so wide an interval says nothing"
+
+def specular_furnace() -> d.SceneDescription:
+    """White plates, a mirror and a glass ball under a white sky."""
+    scene = Builder(camera((0, -4, 1.5), (0, 0, 0.3), 60), SMALL, SMALL, environment=sky())
+    scene.mesh(floor(0, 3), d.Lambert(WHITE)).sphere((-0.8, 0, 0.7), 0.6, d.Mirror(WHITE))
+    return scene.sphere((0.8, 0, 0.7), 0.6, d.Glass(1.5)).done()
+
+
+def metal(alpha: float, fog: bool) -> d.SceneDescription:
+    """Plates under two moons. Where they are smooth, their mirror images of the moons are met by chance alone."""
+    medium = d.Medium(grey(0.002), grey(0.05)) if fog else None
+    scene = Builder(camera((0, -4, 2), (0, 2, 0.2), 60), SMALL, SMALL, medium=medium)
+    places = np.tile(np.eye(4), (9, 1, 1))
+    places[:, :3, 3] = [(2 * i, 2 * j + 2, 0.15 * i * j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    scene.mesh(hexagon(1, 0.6), d.Conductor(alpha, f0=(0.9, 0.8, 0.7)), instances=places)
+    scene.mesh(floor(-0.6, 8), d.Lambert(grey(0.4)))
+    return scene.sphere((-2, 6, 3), 0.5, d.Light((9, 3, 1))).sphere((2, 1, 2.5), 0.2, d.Light((3, 9, 30))).done()
+
+
+@dataclass(frozen=True)
+class World:
+    scene: Callable[[], d.SceneDescription]
+    truth: float | None  # of every pixel; None: the mean of the other renders
+    tails: str  # "light": every render is certified; "mixed": some are; "heavy": none is
+
+
+WORLDS = {
+    "fog": World(hazy_furnace, 1, "light"),
+    "mirror and glass": World(specular_furnace, 1, "light"),
+    "rough metal": World(lambda: metal(0.3, False), None, "mixed"),
+    "rough metal in fog": World(lambda: metal(0.3, True), None, "mixed"),
+    "smooth metal": World(lambda: metal(0.02, False), None, "heavy"),
+}
+
+
+@dataclass(frozen=True)
+class Claim:
+    low: float
+    high: float
+    certified: bool
+    picture: Array
+
+
+def claim(scene: Scene, integrator: str, seed: int, **limits: float) -> Claim:
+    with Render(scene, integrator=integrator, seed=seed, threads=1, **limits) as render:
+        progress = render.run().poll()
+        return Claim(
+            progress.relmse_low, progress.relmse_high, not progress.heavy_tails, render.read().astype(np.float64)
+        )
+
+
+def true_errors(claims: list[Claim], truth: float | None) -> Array:
+    """The relMSE that became of each."""
+    pictures = np.stack([c.picture for c in claims])
+    n = len(pictures)
+    others = (pictures.sum(axis=0) - pictures) / (n - 1) if truth is None else np.full_like(pictures, truth)
+    # The others' mean has an error of its own, 1/(n - 1) of what is measured.
+    scale = (n - 1) / n if truth is None else 1
+    mean = pictures.mean(axis=0) if truth is None else others[0]
+    errors: Array = ((pictures - others) ** 2 * scale / (mean**2 + 1e-4 * mean.mean() ** 2)).mean(axis=(1, 2, 3))
+    return errors
+
+
+@pytest.mark.parametrize("runs", [60, pytest.param(400, marks=pytest.mark.full)])
+@pytest.mark.parametrize("name", WORLDS)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_the_interval_holds_the_error(integrator: str, name: str, runs: int) -> None:
+    """Of all renders, and of those that are certified, 95 % have made an error within their interval, within the
+    binomial error of so many renders. Where tails are light, the interval is narrow enough to mean something."""
+    world = WORLDS[name]
+    scene = Scene(world.scene())
+    claims = list(pool.map(lambda seed: claim(scene, integrator, 5000 + seed, samples=64), range(runs)))
+    errors = true_errors(claims, world.truth)
+    held = np.array([c.low <= error <= c.high for c, error in zip(claims, errors, strict=True)])
+    certified = np.array([c.certified for c in claims])
+    for which in (held, held[certified]):
+        assert stats.binom.cdf(which.sum(), len(which), CONFIDENCE) > LEVEL, f"{which.sum()} of {len(which)}"
+    assert certified.all() if world.tails == "light" else certified.any() == (world.tails == "mixed"), certified.sum()
+    if world.tails == "light":
+        assert np.median([c.high / c.low for c in claims]) < 4, "so wide an interval says nothing"
+
+
+@pytest.mark.parametrize("runs", [40, pytest.param(300, marks=pytest.mark.full)])
+@pytest.mark.parametrize(("integrator", "name"), [(i, n) for i in INTEGRATORS for n in ("fog", "mirror and glass")])
+def test_stopping_meets_its_target(integrator: str, name: str, runs: int) -> None:
+    """Of the renders that stop by a target of the error, 95 % have met it, and the mean of their pictures is right."""
+    world = WORLDS[name]
+    scene = Scene(world.scene())
+    target = float(np.median([claim(scene, integrator, seed, samples=32).high for seed in range(5)]))
+    claims = list(pool.map(lambda seed: claim(scene, integrator, 7000 + seed, target_error=target), range(runs)))
+    assert all(c.high <= target and c.certified for c in claims)
+    met = int((true_errors(claims, world.truth) <= target).sum())
+    assert stats.binom.cdf(met, runs, CONFIDENCE) > LEVEL, f"{met} of {runs} met {target:.2g}"
+    means = np.array([c.picture.mean() for c in claims])
+    z = (means.mean() - 1) / np.hypot(stats.sem(means), 1e-6)
+    assert abs(z) < stats.norm.isf(LEVEL / 2), f"the mean is {means.mean():.5f}, z = {z:.1f}"
+
+
+def test_heavy_tails_do_not_stop_a_render() -> None:
+    """However large the target. A fog's tails are light: that one stops at the first look that may stop it."""
+    scene = Scene(metal(0.02, False))
+    went_on = 0
+    for seed in range(12):
+        with Render(scene, integrator="report", seed=seed, samples=32, target_error=1e9, threads=1) as render:
+            progress = render.run().poll()
+            tails = render.report()["error"]["tails"]
+        assert progress.samples == 32 or not progress.heavy_tails
+        assert tails["certifiable"] == (not progress.heavy_tails) == (tails["largest_share"] <= tails["allowed"])
+        assert tails["largest_share"] == pytest.approx(progress.largest_share)
+        assert 0 <= tails["x"] < SMALL and 0 <= tails["y"] < SMALL
+        went_on += progress.heavy_tails
+    assert went_on >= 6
+    with Render(Scene(hazy_furnace()), samples=32, target_error=1e6, threads=1) as render:
+        progress = render.run().poll()
+        assert not progress.heavy_tails and progress.samples == 16
+        assert render.report()["error"]["tails"]["certifiable"]

@@ -62,10 +62,22 @@ std::string Session::report_json() {
     if (!invalid_.empty())
         first = "{\"x\": " + std::to_string(invalid_[0].x) + ", \"y\": " + std::to_string(invalid_[0].y) +
                 ", \"sample\": " + std::to_string(invalid_[0].sample) + "}";
+    std::string tails = "null";
+    if (error_.has_interval())
+        tails = std::string("{\"certifiable\": ") + (error_.certifiable() ? "true" : "false") +
+                ", \"largest_share\": " + number(error_.largest_share) +
+                ", \"allowed\": " + number(kLargestShareAllowed) + ", \"x\": " + std::to_string(error_.x) +
+                ", \"y\": " + std::to_string(error_.y) + "}";
     std::string error = "null";
     if (std::isfinite(error_.relmse))
         error = "{\"relmse\": " + number(error_.relmse) + ", \"low\": " + number(error_.low) +
-                ", \"high\": " + number(error_.high) + ", \"confidence\": " + number(kErrorConfidence) + "}";
+                ", \"high\": " + number(error_.high) + ", \"confidence\": " + number(kErrorConfidence) +
+                ", \"tails\": " + tails + "}";
+    std::string rate = "null";
+    if (std::isfinite(rate_.power))
+        rate = "{\"power\": " + number(rate_.power) + ", \"low\": " + number(rate_.low) +
+               ", \"high\": " + number(rate_.high) + ", \"confidence\": " + number(kErrorConfidence) + "}";
+    const auto seconds_left = [](double seconds) { return seconds < 0 ? "null" : number(seconds); };
     std::string out = "{\"engine\": " + quoted(GLIMMER_VERSION);
     out += ", \"integrator\": " + quoted(kIntegrators[settings_.integrator].name);
     out += ", \"spp\": " + std::to_string(p.samples);
@@ -78,6 +90,9 @@ std::string Session::report_json() {
     out += ", \"invalid_samples\": {\"count\": " + std::to_string(invalid_count_) + ", \"first\": " + first + "}";
     out += ", \"error\": " + error;
     out += ", \"curve\": [" + curve + "]";
+    out += ", \"rate\": " + rate;
+    out += ", \"seconds_to_half\": " + seconds_left(p.seconds_to_half);
+    out += ", \"seconds_to_target\": " + seconds_left(p.seconds_to_target);
     out += ", \"biased_by\": " + list(biased);
     out += ", \"kernel\": " + quoted(integrator_->kernel());
     out += ", \"left_out\": " + list(scene_->left_out);

@@ -16,7 +16,6 @@ namespace glimmer {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr uint64_t kLargestBatch = 64;
 constexpr uint64_t kLargestSharedBatch = 16; // what passes share is kept for the batch
 constexpr double kTileSeconds = 0.25; // a tile of a batch should take no longer: cancel and the display wait for it
@@ -45,8 +44,7 @@ void keep_denormals() {
 Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings &settings)
     : scene_(std::move(scene)), settings_(settings),
       integrator_(make_integrator(settings.integrator, *scene_, settings.limits)),
-      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes), error_{kNaN, kNaN,
-                                                                                                            kNaN},
+      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes),
       dirty_(film_.tiles().size(), false) {
     if (!settings_.samples && settings_.seconds <= 0 && settings_.target_error <= 0)
         settings_.samples = kDefaultSamples;
@@ -130,6 +128,10 @@ void Session::finish(glimmer_render_state state) {
 
 double Session::elapsed() const {
     return earlier_seconds_ + (state_ == GLIMMER_RUNNING ? now() - running_since_ : 0);
+}
+
+double Session::until(double then) const {
+    return std::isfinite(then) ? std::max(then - elapsed(), 0.0) : -1;
 }
 
 /// The next batch: as many passes as there were so far, so that the picture can be judged at every doubling; fewer
@@ -252,14 +254,22 @@ void Session::add_curve_point(uint64_t samples, std::unique_lock<std::mutex> &lo
     if (!curve_.empty() && curve_.back().samples == samples)
         return;
     between_batches_ = true;
+    const auto looks =
+        std::count_if(curve_.begin(), curve_.end(), [](const auto &p) { return p.error.has_interval(); });
     lock.unlock();
-    const std::optional<ErrorEstimate> error = estimate_error(film_, cancelled_);
+    const std::optional<ErrorEstimate> error = estimate_error(film_, uint32_t(looks) + 1, cancelled_);
     lock.lock();
     between_batches_ = false;
     if (!error)
         return;
-    error_ = *error;
     curve_.push_back({elapsed(), earlier_cpu_seconds_ + double(cpu_nanoseconds_) * 1e-9, samples, *error});
+    judge_curve();
+}
+
+void Session::judge_curve() {
+    error_ = curve_.empty() ? ErrorEstimate{} : curve_.back().error;
+    rate_ = fit_rate(curve_);
+    forecast_ = forecast(curve_, rate_, settings_.target_error);
 }
 
 /// Called by the worker that finished the batch's last tile, with the lock held; the others wait meanwhile.
@@ -269,7 +279,7 @@ void Session::end_batch(std::unique_lock<std::mutex> &lock) {
     if ((samples & (samples - 1)) == 0 || samples == settings_.samples)
         add_curve_point(samples, lock);
     if (state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED) {
-        const bool met = settings_.target_error > 0 && error_.high <= settings_.target_error;
+        const bool met = !curve_.empty() && curve_.back().meets(settings_.target_error);
         const bool late = settings_.seconds > 0 && elapsed() >= settings_.seconds;
         if (met || late)
             finish(GLIMMER_FINISHED);
@@ -337,13 +347,22 @@ glimmer_progress Session::progress() {
     }
     if (settings_.seconds > 0)
         fraction = std::max(fraction, std::min(p.seconds / settings_.seconds, 1.0));
-    if (settings_.target_error > 0 && error_.high > 0) // the error falls as 1 / time
-        fraction = std::max(fraction, std::min(settings_.target_error / error_.high, 1.0));
+    p.seconds_to_half = until(forecast_.half);
+    p.seconds_to_target = until(forecast_.target);
+    if (forecast_.target > 0)
+        fraction = std::max(fraction, std::min(p.seconds / forecast_.target, 1.0));
     p.fraction = state_ == GLIMMER_FINISHED ? 1 : fraction;
     p.seconds_left = p.fraction > 0 ? p.seconds * (1 - p.fraction) / p.fraction : -1;
     p.relmse = error_.relmse;
     p.relmse_low = error_.low;
     p.relmse_high = error_.high;
+    p.heavy_tails = error_.has_interval() && !error_.certifiable();
+    p.largest_share = error_.largest_share;
+    p.largest_x = error_.x;
+    p.largest_y = error_.y;
+    p.rate = rate_.power;
+    p.rate_low = rate_.low;
+    p.rate_high = rate_.high;
     p.rays = rays_;
     p.peak_bytes = film_.bytes() + scene_->bytes();
     p.invalid_samples = invalid_count_;

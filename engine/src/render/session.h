@@ -2,9 +2,9 @@
 // A render under way: worker threads take tiles of a batch of passes, one batch after the other, until a limit is met.
 #pragma once
 
-#include "film/error.h"
 #include "film/film.h"
 #include "integrator/integrator.h"
+#include "render/rate.h"
 #include "scene/scene.h"
 
 #include <condition_variable>
@@ -23,12 +23,6 @@ struct RenderSettings {
     uint64_t seed = 0;
     uint32_t threads = 0, tile_size = 64, passes = 1;
     DepthLimits limits;
-};
-
-struct CurvePoint {
-    double seconds, cpu_seconds;
-    uint64_t samples;
-    ErrorEstimate error;
 };
 
 struct InvalidSample {
@@ -70,10 +64,13 @@ class Session {
     void fail(const std::exception_ptr &failure);
     void take_tile(size_t tile, std::unique_lock<std::mutex> &lock);
     void add_curve_point(uint64_t samples, std::unique_lock<std::mutex> &lock);
+    void judge_curve();
     void end_batch(std::unique_lock<std::mutex> &lock);
     void plan_batch();
     void finish(glimmer_render_state state);
     double elapsed() const;
+    /// Seconds from now until then, never less than 0; negative where `then` is not known.
+    double until(double then) const;
 
     std::shared_ptr<const Scene> scene_;
     RenderSettings settings_;
@@ -92,7 +89,9 @@ class Session {
     std::atomic<uint64_t> rays_{0}, cpu_nanoseconds_{0}, version_{0};
     uint64_t samples_ = 0; ///< every pixel has them
     std::vector<CurvePoint> curve_;
-    ErrorEstimate error_;
+    ErrorEstimate error_; ///< the curve's last
+    FallRate rate_;
+    Forecast forecast_;
     uint64_t invalid_count_ = 0, unfinished_count_ = 0;
     std::vector<InvalidSample> invalid_; ///< the first one, if any
     std::vector<bool> dirty_;

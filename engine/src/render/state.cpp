@@ -90,8 +90,7 @@ void Session::load(const uint8_t *data, size_t size) {
     invalid_.assign(head.first_invalid_known, head.first_invalid);
     earlier_seconds_ = head.seconds;
     earlier_cpu_seconds_ = head.cpu_seconds;
-    if (!curve_.empty())
-        error_ = curve_.back().error;
+    judge_curve();
     dirty_order_.clear();
     for (size_t i = 0; i < film_.tiles().size(); ++i) {
         dirty_[i] = film_.tile_samples(i) > 0;
