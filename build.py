@@ -259,16 +259,32 @@ class RenderOptions:
     frame: int | None
 
 
+PICTURE_SUFFIXES = (".png", ".exr")
+
+
+def make_room(picture: Path) -> None:
+    """Raises BuildError where no picture can be written: before the render, not after it."""
+    try:
+        picture.parent.mkdir(parents=True, exist_ok=True)
+        picture.unlink(missing_ok=True)
+        picture.touch(exist_ok=False)
+        picture.unlink()
+    except OSError as error:
+        reason = error.strerror if picture.parent.is_dir() else f"{picture.parent} is no folder"
+        raise BuildError(f"--output: {picture} cannot be written: {reason}") from None
+
+
 def render(blender: str | None, options: RenderOptions) -> None:
     if not options.scene.exists():
         raise BuildError(f"{options.scene}: no such file; the scenes are blend_scenes/*.blend")
+    stem = options.output or BUILD / "renders" / options.scene.stem
+    if stem.suffix.lower() in PICTURE_SUFFIXES:
+        stem = stem.with_suffix("")
+    pictures = [stem.with_name(stem.name + suffix) for suffix in PICTURE_SUFFIXES]
+    for picture in pictures:
+        make_room(picture)  # what stands there afterwards is this render's
     executable = setup(blender, ("build", "render"))
     build()
-    stem = options.output or BUILD / "renders" / options.scene.stem
-    pictures = [stem.with_name(stem.name + suffix) for suffix in (".png", ".exr")]
-    for picture in pictures:
-        picture.parent.mkdir(parents=True, exist_ok=True)
-        picture.unlink(missing_ok=True)  # what stands there afterwards is this render's
     words: list[str | Path] = ["--scene", options.scene, "--output", stem]
     for name in ("samples", "resolution", "frame"):
         value = getattr(options, name)
@@ -418,7 +434,13 @@ def arguments() -> argparse.ArgumentParser:
     item.add_argument(
         "scene", nargs="?", type=Path, default=DEFAULT_SCENE, help="default: blend_scenes/glimmervoid.blend"
     )
-    item.add_argument("-o", "--output", type=Path, metavar="STEM", help="without suffix (default: build/renders/SCENE)")
+    item.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="STEM",
+        help="of STEM.png and STEM.exr (default: build/renders/SCENE)",
+    )
     item.add_argument("--samples", type=int, metavar="N", help="samples per pixel, in place of the scene's")
     item.add_argument("--resolution", type=int, metavar="PERCENT", help="of the scene's resolution, 1 to 100")
     item.add_argument("--frame", type=int, metavar="N", help="in place of the scene's current frame")

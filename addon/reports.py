@@ -9,6 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .export.scene import Exported
+from .export.world import BLACK_SKY, ENGINES_BLACK_SKY
 from .film.display import clock, error_text
 from .film.stamp import fields
 
@@ -35,7 +36,10 @@ def news() -> int:
 
 def collect(engine_report: dict[str, Any], exported: Exported, warnings: list[str]) -> dict[str, Any]:
     report = dict(engine_report)
-    report["warnings"] = list(dict.fromkeys([*report.get("warnings", []), *warnings]))
+    said = list(dict.fromkeys([*report.get("warnings", []), *warnings]))
+    if any(BLACK_SKY in notice.what for notice in exported.notices):
+        said = [line for line in said if not line.startswith(ENGINES_BLACK_SKY)]  # once is enough
+    report["warnings"] = said
     report["export"] = {
         "seconds": exported.seconds,
         "bytes": exported.bytes,

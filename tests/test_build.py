@@ -154,11 +154,22 @@ def test_requirements_are_pinned(name: str) -> None:
 
 def test_render_writes_a_png_and_an_exr_and_prints_their_paths(tmp_path: Path) -> None:
     stem = tmp_path / "picture"
-    result = build_py("render", "--samples", "1", "--resolution", "10", "--output", stem)
+    # With a suffix as well as without: as people type it.
+    result = build_py("render", "--samples", "1", "--resolution", "10", "--output", stem.with_suffix(".png"))
     assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
     assert result.stdout.split()[-2:] == [f"{stem}.png", f"{stem}.exr"]
     assert (tmp_path / "picture.png").read_bytes().startswith(b"\x89PNG")
     assert (tmp_path / "picture.exr").read_bytes().startswith(b"\x76\x2f\x31\x01")
+
+
+def test_a_target_that_cannot_be_written_is_told_before_rendering(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    (tmp_path / "folder.exr").mkdir()
+    for stem, reason in ((tmp_path / "file" / "p", "is no folder"), (tmp_path / "folder", "Is a directory")):
+        result = build_py("render", "--samples", "1", "--output", stem)
+        assert result.returncode == 1
+        assert "--output" in result.stderr and str(stem) in result.stderr and reason in result.stderr
+        assert "Fra:" not in result.stdout
 
 
 def test_without_a_blender_it_renders_in_the_bpy_module(bpy_python: Path, tmp_path: Path) -> None:

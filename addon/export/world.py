@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     import bpy
 
 
+BLACK_SKY = "black behind its endless fog"
+ENGINES_BLACK_SKY = "the fog has no end"  # how the engine, which knows no names, begins the same warning
+
+
 def _around_z(angle: float) -> Floats:
     matrix = np.eye(4)
     matrix[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
@@ -50,19 +54,14 @@ def warn_of_black_sky(
     """Space without end in fog is opaque: nothing from outside of it arrives."""
     if medium is None or not any(a + s > 0.0 for a, s in zip(medium.sigma_a, medium.sigma_s, strict=True)):
         return
-    if any(environment.radiance):
+    unseen = ["its background"] if any(environment.radiance) else []
+    unseen += [f"sun '{lamp.name}'" for lamp in lights if isinstance(lamp, SunLight)]
+    if unseen:
         notices.add(
             f"world '{world.name}'" if world else "",
-            "its background is black behind its own endless fog, as in Cycles: remove the world's Volume shader, or"
-            " light the scene with lamps and emissive objects inside the fog",
+            f"{' and '.join(unseen)} {'are' if len(unseen) > 1 else 'is'} {BLACK_SKY}, as in Cycles: use point, spot or"
+            " area lamps or emissive objects inside the fog, or remove the world's Volume shader",
         )
-    for lamp in lights:
-        if isinstance(lamp, SunLight):
-            notices.add(
-                f"object '{lamp.name}'",
-                "a sun is black behind the world's endless fog, as in Cycles: use a point, spot or area lamp or an"
-                " emissive object inside the fog, or remove the world's Volume shader",
-            )
 
 
 @dataclass

@@ -123,6 +123,8 @@ class Display:
         """Shows what changed. Returns when to look again."""
         start = time.monotonic()
         tiles = self._render.changed_tiles()
+        if not tiles:
+            return start  # the first ones are shown as soon as they are there
         for tile in tiles if len(tiles) <= MAX_TILES else [self._whole]:
             self._show(tile)
         end = time.monotonic()

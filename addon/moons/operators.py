@@ -5,6 +5,8 @@ from typing import Any
 
 import bpy
 
+from .camera import eye_of, is_seen, upright
+from .framing import frame
 from .moon import FIVE_MOONS, Moon, create
 
 
@@ -36,7 +38,7 @@ class GLIMMER_OT_add_moon(bpy.types.Operator):
 
 
 class GLIMMER_OT_add_five_moons(bpy.types.Operator):
-    """Add the red, the green, the white, the blue and the black moon"""
+    """Add the red, the green, the white, the blue and the black moon above the horizon that the camera looks to"""
 
     bl_idname = "glimmer.add_five_moons"
     bl_label = "Glimmer Five Moons"
@@ -46,8 +48,27 @@ class GLIMMER_OT_add_five_moons(bpy.types.Operator):
     def poll(cls, context: Any) -> bool:
         return context.mode == "OBJECT"
 
+    aim_camera: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Turn Camera",
+        description="Turn the scene's camera upright and up to the moons where it does not see all of them",
+        default=True,
+    )
+
     def execute(self, context: Any) -> set[str]:
-        _select(context, [create(moon, context.collection) for moon in FIVE_MOONS])
+        camera = context.scene.camera
+        if camera is None or camera.type != "CAMERA" or camera.data.type != "PERSP":
+            _select(context, [create(moon, context.collection) for moon in FIVE_MOONS])
+            return {"FINISHED"}
+        # Before anything is created: that waits for the next evaluation.
+        moons, pitch = frame(FIVE_MOONS, eye_of(context.scene, camera))
+        unseen = [moon.name for moon in moons if not is_seen(context.scene, camera, moon.location)]
+        _select(context, [create(moon, context.collection) for moon in moons])
+        if unseen and self.aim_camera:
+            if camera.constraints or (camera.animation_data is not None and camera.animation_data.action is not None):
+                self.report({"WARNING"}, f"{camera.name} is animated or constrained and was not turned to the moons")
+            else:
+                heading = eye_of(context.scene, camera).heading
+                camera.matrix_world = upright(tuple(camera.matrix_world.translation), heading, pitch)
         return {"FINISHED"}
 
 

@@ -400,6 +400,7 @@ def operators_add_field_and_moons() -> None:
     five = [o for o in bpy.context.selected_objects if moon.emission_node(o)]
     assert len(five) == 5
     assert len({o.data.name for o in [*five, red]}) == 1, "moons share their mesh"
+    five_moons_are_in_the_picture()
     distance = [vertex.co.length for vertex in red.data.vertices]
     assert max(distance) - min(distance) < 1e-6
     assert all(polygon.normal.dot(polygon.center) > 0 and polygon.use_smooth for polygon in red.data.polygons)
@@ -409,6 +410,45 @@ def operators_add_field_and_moons() -> None:
         assert "radius is 1e+06; allowed with plates of this size: 0 to 775" in str(error)
     else:
         raise AssertionError("a field of billions of plates was accepted")
+
+
+def five_moons_are_in_the_picture() -> None:
+    """In the camera of a new file, in a portrait one, in one that looks straight down, and in one that sees them."""
+    camera_module = _load("moons.camera")
+    scene = bpy.context.scene
+    camera = scene.camera or bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    if scene.camera is None:
+        scene.collection.objects.link(camera)
+        scene.camera = camera
+    default = (7.3589, -6.9258, 4.9583), (1.1093, 0.0, 0.8149)
+    size = scene.render.resolution_x, scene.render.resolution_y
+    for (place, turn), lens, portrait in (
+        (default, 50.0, False),
+        (default, 85.0, True),
+        (((3.0, 2.0, 9.0), (0.0, 0.0, 1.0)), 50.0, False),
+    ):
+        camera.location, camera.rotation_euler, camera.data.lens = place, turn, lens
+        scene.render.resolution_x, scene.render.resolution_y = size[::-1] if portrait else size
+        bpy.context.view_layer.update()
+        heading = camera_module.eye_of(scene, camera).heading
+        assert bpy.ops.glimmer.add_five_moons() == {"FINISHED"}
+        bpy.context.view_layer.update()
+        for moon in bpy.context.selected_objects:
+            assert camera_module.is_seen(scene, camera, tuple(moon.location)), (moon.name, lens)
+            assert moon.location.z - moon.scale.z > place[2] - 1.0, "it stands under the horizon"
+        assert max(abs(a - b) for a, b in zip(camera.location, place, strict=True)) < 1e-5
+        assert abs(camera_module.eye_of(scene, camera).heading - heading) < 1e-5
+    turned = camera.matrix_world.copy()
+    assert bpy.ops.glimmer.add_five_moons() == {"FINISHED"}  # it sees them already
+    bpy.context.view_layer.update()
+    assert camera.matrix_world == turned
+    camera.rotation_euler = (1.1093, 0.0, 0.8149)
+    bpy.context.view_layer.update()
+    before = camera.matrix_world.copy()
+    assert bpy.ops.glimmer.add_five_moons(aim_camera=False) == {"FINISHED"}
+    assert camera.matrix_world == before
+    scene.render.resolution_x, scene.render.resolution_y = size
+    bpy.ops.object.select_all(action="DESELECT")
 
 
 def registration_goes_both_ways() -> None:

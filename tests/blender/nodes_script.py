@@ -263,7 +263,8 @@ def fog_and_sun() -> list[str]:
     tree.links.new(tree.nodes.new("ShaderNodeVolumeScatter").outputs[0], tree.nodes["World Output"].inputs["Volume"])
     scene.glimmer.samples = 1
     bpy.ops.render.render()
-    lines: list[str] = reports.last()["export"]["notices"]
+    report = reports.last()
+    lines: list[str] = [*report["export"]["notices"], *report["warnings"]]
     return lines
 
 
