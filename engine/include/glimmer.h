@@ -8,6 +8,7 @@
  *
  * Results: every call that can fail returns a glimmer_result; glimmer_last_error() then holds one line that says
  *     what is wrong, where, and what is allowed. Nothing is written to the outputs of a call that failed.
+ * Floating point: the calling thread's mode (rounding, denormals, traps) makes no difference and is left as it was.
  * Memory: what is handed in is copied before the call returns. Strings are UTF-8 and end in 0.
  * Structs: every description starts with struct_size, set by the caller to sizeof(the struct); fill it from
  *     glimmer_*_init(), which also sets the defaults, so that a newer library understands an older caller.
@@ -39,9 +40,12 @@ extern "C" {
 typedef enum glimmer_result {
     GLIMMER_OK = 0,
     GLIMMER_INVALID_ARGUMENT = 1, /* a value is out of its range, or a handle is null or of another kind */
-    GLIMMER_INVALID_STATE = 2,    /* a call in the wrong order */
+    GLIMMER_INVALID_STATE =
+        2, /* a call in the wrong order: to change or commit a committed scene, to commit one without
+              camera or film, to render one that is not committed; to start a render twice, to wait
+              for one that was not started, to save one that runs, to load into one that started */
     GLIMMER_OUT_OF_MEMORY = 3,
-    GLIMMER_UNAVAILABLE = 4, /* Embree is missing, or of another version than the engine was built for */
+    GLIMMER_UNAVAILABLE = 4, /* from commit: Embree is missing, or of another version than the engine was built for */
     GLIMMER_INTERNAL = 5     /* a defect of the engine; please report it */
 } glimmer_result;
 
@@ -222,8 +226,9 @@ typedef struct glimmer_film_desc {
 GLIMMER_API void glimmer_film_init(glimmer_film_desc *desc);
 GLIMMER_API glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_desc *desc);
 
-/* Checks the whole, builds what rays need, and freezes the scene. Uses `threads` threads (0: all). A camera and a film
- * must have been set. */
+/* Checks the whole, builds what rays need, and freezes the scene. A camera and a film must have been set. A failed
+ * commit leaves the scene as it was. threads: 0 (all) to 4096, the most that build; with another number than the last
+ * commit's, meshes are built again, and while scenes of a larger number live, that one holds. */
 GLIMMER_API glimmer_result glimmer_scene_commit(glimmer_scene *scene, uint32_t threads);
 /* Like glimmer_render_report: warnings of a committed scene, one a line ("" if none). */
 GLIMMER_API const char *glimmer_scene_warnings(glimmer_scene *scene);
@@ -296,6 +301,7 @@ typedef enum glimmer_render_state {
 
 /* Starts the workers and returns at once. */
 GLIMMER_API glimmer_result glimmer_render_start(glimmer_render *render);
+/* Returns when the workers rest. Pausing what does not run and resuming what is not paused change nothing. */
 GLIMMER_API glimmer_result glimmer_render_pause(glimmer_render *render);
 GLIMMER_API glimmer_result glimmer_render_resume(glimmer_render *render);
 /* Asks the workers to stop; within 100 ms they have. What was finished can still be read. */
@@ -314,7 +320,7 @@ typedef struct glimmer_progress {
     double cpu_seconds;
     double relmse, relmse_low, relmse_high; /* NaN when not known; the interval holds at all looks at once */
     uint64_t rays;
-    uint64_t peak_bytes;      /* of the engine's own large arrays, or of the process where that is all that is known */
+    uint64_t peak_bytes;      /* of the scene with its BVHs, the film, and what the passes of a batch share */
     uint64_t invalid_samples; /* NaN or infinite, left out of the means and named in the report */
     uint64_t version;         /* grows whenever a pixel changed */
     /* Of the error, one pixel (x, y of the crop) of one replicate carries this share; NaN when not known. Above 0.1 the

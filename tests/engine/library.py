@@ -73,12 +73,14 @@ def pass_table() -> dict[str, tuple[int, str]]:
 class Scene:
     """A committed scene; freed with the object."""
 
-    def __init__(self, description: SceneDescription) -> None:
-        meshes = MeshCache(engine())
+    def __init__(self, description: SceneDescription, shared: MeshCache | None = None) -> None:
+        """shared: meshes of other scenes, which the caller clears in the end."""
+        meshes = shared or MeshCache(engine())
         try:
             self._native = NativeScene(engine(), description, meshes)
         finally:
-            meshes.clear()
+            if shared is None:
+                meshes.clear()
         window = description.film.window
         self.width, self.height = window[2] - window[0], window[3] - window[1]
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "api/error.h"
+#include "api/float_mode.h"
 #include "geometry/mesh.h"
 #include "render/session.h"
 #include "scene/description.h"
@@ -12,6 +13,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 // A word at the start of every handle tells a null, foreign or destroyed one from a good one (as well as a pointer can
@@ -52,6 +54,7 @@ glimmer_result keep_error(glimmer_result code, const char *message) noexcept;
 /// Runs a call's body; whatever it throws becomes a result code and a message. No exception crosses the API.
 template <class Body>
 glimmer_result guarded(const Body &body) noexcept {
+    const FloatMode mode;
     try {
         body();
         return GLIMMER_OK;
@@ -61,6 +64,8 @@ glimmer_result guarded(const Body &body) noexcept {
         return keep_error(GLIMMER_OUT_OF_MEMORY, "out of memory");
     } catch (const std::length_error &) {
         return keep_error(GLIMMER_OUT_OF_MEMORY, "out of memory: an array would be too large");
+    } catch (const std::system_error &) { // of std::thread alone
+        return keep_error(GLIMMER_OUT_OF_MEMORY, "out of memory, or of threads");
     } catch (const std::exception &e) {
         return keep_error(GLIMMER_INTERNAL, e.what());
     } catch (...) {

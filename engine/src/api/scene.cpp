@@ -412,10 +412,11 @@ glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_d
     });
 }
 
-glimmer_result glimmer_scene_commit(glimmer_scene *scene, uint32_t) {
+glimmer_result glimmer_scene_commit(glimmer_scene *scene, uint32_t threads) {
     return guarded([&] {
         SceneDescription &description = open_scene(scene);
-        auto built = std::make_shared<const Scene>(description);
+        check_range(threads, 0, 4096, "commit: threads");
+        auto built = std::make_shared<const Scene>(description, threads);
         std::string warnings;
         for (const std::string &w : built->warnings)
             warnings += (warnings.empty() ? "" : "\n") + w;

@@ -109,17 +109,22 @@ float Instance::reach() const {
     return float(std::min(local, 0.5 * double(kMostCoordinate)));
 }
 
-Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres)
-    : instances_(std::move(instances)), spheres_(std::move(spheres)), reach_(kMostCoordinate) {
+Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres, uint32_t threads)
+    : instances_(std::move(instances)), spheres_(std::move(spheres)), reach_(kMostCoordinate),
+      device_(embree_device(threads)) {
     for (const Instance &instance : instances_)
         reach_ = std::min(reach_, instance.reach());
+    std::vector<Bvh> meshes; // built before the memory is counted
+    for (const Instance &instance : instances_)
+        meshes.push_back(instance.mesh->bvh(device_));
     const Embree &e = embree();
-    scene_ = e.rtcNewScene(e.device);
-    e.rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    const size_t before = device_->bytes();
+    bvh_ = new_bvh(*device_);
+    scene_ = bvh_.get();
     for (size_t i = 0; i < instances_.size(); ++i) {
         const Instance &instance = instances_[i];
-        RTCGeometry geometry = e.rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_INSTANCE);
-        e.rtcSetGeometryInstancedScene(geometry, instance.mesh->bvh());
+        RTCGeometry geometry = e.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+        e.rtcSetGeometryInstancedScene(geometry, meshes[i].get());
         float rows[12];
         for (size_t r = 0; r < 3; ++r) {
             rows[4 * r] = instance.linear[r].x;
@@ -133,7 +138,7 @@ Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres)
         e.rtcReleaseGeometry(geometry);
     }
     if (!spheres_.empty()) {
-        RTCGeometry geometry = e.rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_USER);
+        RTCGeometry geometry = e.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_USER);
         e.rtcSetGeometryUserPrimitiveCount(geometry, unsigned(spheres_.size()));
         e.rtcSetGeometryUserData(geometry, &spheres_);
         e.rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
@@ -144,16 +149,12 @@ Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres)
         e.rtcReleaseGeometry(geometry);
     }
     e.rtcCommitScene(scene_);
-    try {
-        e.check("the scene");
-    } catch (...) {
-        e.rtcReleaseScene(scene_);
-        throw;
-    }
+    device_->check("the scene");
+    bvh_bytes_ = std::max(device_->bytes(), before) - before;
 }
 
-Accel::~Accel() {
-    embree().rtcReleaseScene(scene_);
+size_t Accel::bytes() const {
+    return instances_.size() * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + bvh_bytes_;
 }
 
 bool Accel::can_trace(const Ray &ray) const {

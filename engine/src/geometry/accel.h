@@ -34,9 +34,9 @@ struct Instance {
 
 class Accel {
   public:
-    /// Builds at once. Spheres are about the scene's origin. Meshes must outlive this.
-    Accel(std::vector<Instance> instances, std::vector<Sphere> spheres);
-    ~Accel();
+    /// Builds at once, on `threads` threads at most (0: all). Spheres are about the scene's origin. Meshes must outlive
+    /// this.
+    Accel(std::vector<Instance> instances, std::vector<Sphere> spheres, uint32_t threads);
     Accel(const Accel &) = delete;
     Accel &operator=(const Accel &) = delete;
 
@@ -45,6 +45,8 @@ class Accel {
     /// Whether anything stands before t_max. `ignored_sphere` is looked through (the light a shadow ray aims at).
     bool occluded(const Ray &ray, uint32_t ignored_sphere = kNone) const;
 
+    /// Of all but the meshes.
+    size_t bytes() const;
     const std::vector<Instance> &instances() const { return instances_; }
     const std::vector<Sphere> &spheres() const { return spheres_; }
 
@@ -54,7 +56,10 @@ class Accel {
     std::vector<Instance> instances_;
     std::vector<Sphere> spheres_;
     float reach_;
-    RTCScene scene_ = nullptr;
+    std::shared_ptr<const EmbreeDevice> device_;
+    Bvh bvh_;
+    RTCScene scene_; ///< bvh_'s
+    size_t bvh_bytes_ = 0;
 };
 
 } // namespace glimmer

@@ -4,6 +4,8 @@
 #include "api/error.h"
 
 #include <dlfcn.h>
+#include <mutex>
+#include <string>
 
 namespace glimmer {
 
@@ -28,21 +30,52 @@ Embree open_embree() {
         throw Error(GLIMMER_UNAVAILABLE, std::string(kLibrary) + " has no function " #name);
     GLIMMER_EMBREE_FUNCTIONS(GLIMMER_LOAD)
 #undef GLIMMER_LOAD
-    e.device = e.rtcNewDevice(nullptr);
-    if (!e.device)
-        throw Error(GLIMMER_UNAVAILABLE, "Embree could not make a device on this processor");
-    const auto major = e.rtcGetDeviceProperty(e.device, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
-    const auto minor = e.rtcGetDeviceProperty(e.device, RTC_DEVICE_PROPERTY_VERSION_MINOR);
-    if (major != RTC_VERSION_MAJOR || minor < RTC_VERSION_MINOR)
-        throw Error(GLIMMER_UNAVAILABLE, "Embree " + std::to_string(major) + "." + std::to_string(minor) +
-                                             " was found; the engine was built for " RTC_VERSION_STRING);
     return e;
 }
 
 } // namespace
 
-void Embree::check(const char *what) const {
-    switch (rtcGetDeviceError(device)) {
+const Embree &embree() {
+    static const Embree table = open_embree();
+    return table;
+}
+
+/// That a device could not be made.
+[[noreturn]] static void fail_device(RTCError error) {
+    if (error == RTC_ERROR_UNSUPPORTED_CPU)
+        throw Error(GLIMMER_UNAVAILABLE, "Embree does not support this processor");
+    // Also of an unknown error: the scheduler's threads, which it cannot start then.
+    if (error == RTC_ERROR_OUT_OF_MEMORY || error == RTC_ERROR_UNKNOWN)
+        throw Error(GLIMMER_OUT_OF_MEMORY, "out of memory, or of threads, while starting Embree");
+    throw Error(GLIMMER_INTERNAL, "Embree could not make a device: its error " + std::to_string(int(error)));
+}
+
+EmbreeDevice::EmbreeDevice(uint32_t threads) : threads_(threads) {
+    const Embree &e = embree();
+    const std::string config = threads ? "threads=" + std::to_string(threads) : "";
+    device_ = e.rtcNewDevice(config.c_str());
+    if (!device_)
+        fail_device(e.rtcGetDeviceError(nullptr));
+    const auto major = e.rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
+    const auto minor = e.rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_VERSION_MINOR);
+    if (major != RTC_VERSION_MAJOR || minor < RTC_VERSION_MINOR) {
+        e.rtcReleaseDevice(device_);
+        throw Error(GLIMMER_UNAVAILABLE, "Embree " + std::to_string(major) + "." + std::to_string(minor) +
+                                             " was found; the engine was built for " RTC_VERSION_STRING);
+    }
+    const auto count = [](void *bytes, ssize_t change, bool) {
+        *static_cast<std::atomic<ptrdiff_t> *>(bytes) += change;
+        return true; // go on
+    };
+    e.rtcSetDeviceMemoryMonitorFunction(device_, count, &bytes_);
+}
+
+EmbreeDevice::~EmbreeDevice() {
+    embree().rtcReleaseDevice(device_);
+}
+
+void EmbreeDevice::check(const char *what) const {
+    switch (embree().rtcGetDeviceError(device_)) {
     case RTC_ERROR_NONE:
         return;
     case RTC_ERROR_OUT_OF_MEMORY:
@@ -52,9 +85,25 @@ void Embree::check(const char *what) const {
     }
 }
 
-const Embree &embree() {
-    static const Embree table = open_embree();
-    return table;
+Bvh new_bvh(const EmbreeDevice &device) {
+    const Embree &e = embree();
+    const RTCScene scene = e.rtcNewScene(device.handle());
+    if (!scene)
+        device.check("a scene");
+    e.rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // without it rays slip through edges
+    return {scene, [](RTCScene s) { embree().rtcReleaseScene(s); }};
+}
+
+std::shared_ptr<const EmbreeDevice> embree_device(uint32_t threads) {
+    static std::mutex mutex;
+    // Never destroyed: at the end of the process Embree's own statics may be gone before ours.
+    static auto &current = *new std::shared_ptr<const EmbreeDevice>;
+    const std::lock_guard lock(mutex);
+    if (!current || current->threads() != threads) {
+        current.reset(); // first, so that a smaller number is not raised to the one before
+        current = std::make_shared<const EmbreeDevice>(threads);
+    }
+    return current;
 }
 
 } // namespace glimmer

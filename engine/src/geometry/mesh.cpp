@@ -1,36 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh.h"
 
+#include <algorithm>
+
 namespace glimmer {
 
-Mesh::~Mesh() {
-    if (bvh_)
-        embree().rtcReleaseScene(bvh_);
-}
-
 size_t Mesh::bytes() const {
+    const std::lock_guard lock(mutex_);
     return vertices.size() * sizeof(Vec3f) + normals.size() * sizeof(Vec3f) + uvs.size() * sizeof(Vec2f) +
-           triangles.size() * sizeof(triangles[0]) + slots.size() * sizeof(uint16_t);
+           triangles.size() * sizeof(triangles[0]) + slots.size() * sizeof(uint16_t) + bvh_bytes_;
 }
 
-RTCScene Mesh::bvh() const {
-    std::call_once(built_, [this] {
-        const Embree &e = embree();
-        RTCScene scene = e.rtcNewScene(e.device);
-        e.rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // without it rays slip through edges
-        RTCGeometry geometry = e.rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        e.rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0,
-                                     sizeof(Vec3f), vertices.size() - 1);
-        e.rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
-                                     sizeof(triangles[0]), triangles.size());
-        e.rtcCommitGeometry(geometry);
-        e.rtcAttachGeometryByID(scene, geometry, 0);
-        e.rtcReleaseGeometry(geometry);
-        e.rtcCommitScene(scene);
-        bvh_ = scene;
-        e.check(("mesh \"" + name + "\"").c_str());
-    });
-    return bvh_;
+Bvh Mesh::bvh(const std::shared_ptr<const EmbreeDevice> &device) const {
+    const std::lock_guard lock(mutex_);
+    if (bvh_ && device_ == device)
+        return bvh_;
+    bvh_ = nullptr;
+    const Embree &e = embree();
+    const size_t before = device->bytes();
+    const Bvh built = new_bvh(*device);
+    RTCGeometry geometry = e.rtcNewGeometry(device->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    e.rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0,
+                                 sizeof(Vec3f), vertices.size() - 1);
+    e.rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
+                                 sizeof(triangles[0]), triangles.size());
+    e.rtcCommitGeometry(geometry);
+    e.rtcAttachGeometryByID(built.get(), geometry, 0);
+    e.rtcReleaseGeometry(geometry);
+    e.rtcCommitScene(built.get());
+    device->check(("mesh \"" + name + "\"").c_str());
+    // Of a build on another thread meanwhile a part is counted here: the sum over meshes stays about right.
+    bvh_bytes_ = std::max(device->bytes(), before) - before;
+    device_ = device;
+    return bvh_ = built;
 }
 
 } // namespace glimmer

@@ -6,8 +6,8 @@
 #include "math/affine.h"
 #include "math/vec.h"
 
-#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -19,7 +19,6 @@ class Mesh {
     Mesh() = default;
     Mesh(const Mesh &) = delete;
     Mesh &operator=(const Mesh &) = delete;
-    ~Mesh();
 
     std::string name;
     Vec3d center;                ///< float64 centre of the bounds: `vertices` are relative to it
@@ -32,14 +31,18 @@ class Mesh {
     uint16_t slot_count = 1;
 
     uint16_t slot(uint32_t triangle) const { return slots.empty() ? uint16_t(0) : slots[triangle]; }
+    /// Its arrays and, once built, its BVH.
     size_t bytes() const;
 
-    /// The Embree scene of this mesh, built at the first call.
-    RTCScene bvh() const;
+    /// The Embree scene of this mesh, built at the first call for a device and kept until one for another. Throws
+    /// Error.
+    Bvh bvh(const std::shared_ptr<const EmbreeDevice> &device) const;
 
   private:
-    mutable std::once_flag built_;
-    mutable RTCScene bvh_ = nullptr;
+    mutable std::mutex mutex_; ///< of everything below
+    mutable std::shared_ptr<const EmbreeDevice> device_;
+    mutable Bvh bvh_;
+    mutable size_t bvh_bytes_ = 0;
 };
 
 } // namespace glimmer

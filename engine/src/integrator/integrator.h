@@ -31,6 +31,8 @@ struct RayCounter {
 /// What all pixels of a pass share, and what the pixels of one block of it share.
 struct PassData {
     virtual ~PassData() = default;
+    /// Of its large arrays.
+    virtual size_t bytes() const = 0;
 };
 struct BlockData {
     virtual ~BlockData() = default;

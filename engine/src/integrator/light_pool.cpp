@@ -18,6 +18,9 @@ constexpr uint64_t kPassStream = 0x9a55, kBlockStream = 0xb10c,
                    kPilotStream = 0x9107; // keep the streams of random numbers apart
 
 struct LightPass final : PassData {
+    size_t bytes() const override {
+        return vertices.fog.x.capacity() * 6 * sizeof(float) + vertices.surface.capacity() * sizeof(SurfaceVertex);
+    }
     uint64_t seed, sample;
     LightVertices vertices;
 };

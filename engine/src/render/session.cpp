@@ -198,6 +198,8 @@ void Session::take_pass(size_t index, std::unique_lock<std::mutex> &lock) {
     --busy_;
     if (failure)
         return fail(failure);
+    batch_.shared_bytes += pass->bytes();
+    most_shared_bytes_ = std::max(most_shared_bytes_, batch_.shared_bytes);
     batch_.passes[index] = std::move(pass);
     ++batch_.done_passes;
 }
@@ -364,7 +366,7 @@ glimmer_progress Session::progress() {
     p.rate_low = rate_.low;
     p.rate_high = rate_.high;
     p.rays = rays_;
-    p.peak_bytes = film_.bytes() + scene_->bytes();
+    p.peak_bytes = film_.bytes() + scene_->bytes + most_shared_bytes_;
     p.invalid_samples = invalid_count_;
     p.version = version_;
     return p;

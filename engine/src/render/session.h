@@ -53,7 +53,7 @@ class Session {
     struct Batch {
         uint64_t first = 0, count = 0;
         std::vector<std::unique_ptr<const PassData>> passes; ///< what they share; empty where they share nothing
-        size_t next_pass = 0, done_passes = 0;
+        size_t next_pass = 0, done_passes = 0, shared_bytes = 0;
         size_t next_tile = 0, done_tiles = 0;
     };
 
@@ -87,7 +87,8 @@ class Session {
     uint32_t busy_ = 0, alive_ = 0;                    ///< workers within a tile; workers
     std::atomic<bool> stop_{false}, cancelled_{false}; ///< ended; ended in a hurry
     std::atomic<uint64_t> rays_{0}, cpu_nanoseconds_{0}, version_{0};
-    uint64_t samples_ = 0; ///< every pixel has them
+    uint64_t samples_ = 0;         ///< every pixel has them
+    size_t most_shared_bytes_ = 0; ///< of a batch's passes
     std::vector<CurvePoint> curve_;
     ErrorEstimate error_; ///< the curve's last
     FallRate rate_;

@@ -109,7 +109,7 @@ void SceneBuilder::build_geometry() {
             scene_.sphere_indices.push_back(group.object_index);
         }
     }
-    scene_.accel = std::make_unique<Accel>(std::move(instances), std::move(spheres));
+    scene_.accel = std::make_unique<Accel>(std::move(instances), std::move(spheres), threads_);
 }
 
 Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {

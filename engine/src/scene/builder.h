@@ -9,7 +9,8 @@ namespace glimmer {
 
 class SceneBuilder {
   public:
-    SceneBuilder(const SceneDescription &description, Scene &scene);
+    /// threads: the most that build (0: all).
+    SceneBuilder(const SceneDescription &description, Scene &scene, uint32_t threads);
 
     void build_camera_and_film(); // sets the origin: everything after it is relative to the camera
     void build_materials();
@@ -30,6 +31,7 @@ class SceneBuilder {
 
     const SceneDescription &description_;
     Scene &scene_;
+    uint32_t threads_;
     Vec3d origin_;
     std::vector<bool> used_; ///< materials that something is made of
     size_t black_lights_ = 0, absent_objects_ = 0;

@@ -5,11 +5,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <set>
 
 namespace glimmer {
 
-SceneBuilder::SceneBuilder(const SceneDescription &description, Scene &scene)
-    : description_(description), scene_(scene) {}
+SceneBuilder::SceneBuilder(const SceneDescription &description, Scene &scene, uint32_t threads)
+    : description_(description), scene_(scene), threads_(threads) {}
 
 void SceneBuilder::build_medium() {
     if (!description_.medium)
@@ -78,9 +79,9 @@ void SceneBuilder::list_left_out() {
         out.push_back(count(black_lights_, "black light"));
 }
 
-Scene::Scene(const SceneDescription &description) {
+Scene::Scene(const SceneDescription &description, uint32_t threads) {
     const auto start = std::chrono::steady_clock::now();
-    SceneBuilder builder(description, *this);
+    SceneBuilder builder(description, *this, threads);
     builder.build_camera_and_film();
     builder.build_materials();
     builder.build_medium();
@@ -94,15 +95,10 @@ Scene::Scene(const SceneDescription &description) {
             "lights of a place and size, or leave out the fog");
     if (lights.size() == 0)
         warnings.push_back("nothing in the scene shines: the picture will be black");
+    bytes = lobes.size() * sizeof(WeightedLobe) + accel->bytes();
+    for (const auto &mesh : std::set(meshes_.begin(), meshes_.end())) // objects may share one
+        bytes += mesh->bytes();
     build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-size_t Scene::bytes() const {
-    size_t n = lobes.size() * sizeof(WeightedLobe) + accel->instances().size() * sizeof(Instance) +
-               accel->spheres().size() * sizeof(Sphere);
-    for (const auto &mesh : meshes_)
-        n += mesh->bytes();
-    return n;
 }
 
 } // namespace glimmer

@@ -43,14 +43,13 @@ struct FilmSettings {
 
 class Scene {
   public:
-    /// Checks and builds. Throws Error.
-    explicit Scene(const SceneDescription &description);
+    /// Checks and builds, on `threads` threads at most (0: all). Throws Error.
+    Scene(const SceneDescription &description, uint32_t threads);
     Scene(const Scene &) = delete;
     Scene &operator=(const Scene &) = delete;
 
     Interaction interaction(const Ray &ray, const Hit &hit) const;
     Bsdf bsdf(const Material &material) const { return Bsdf(lobes.data() + material.lobe_begin, material.lobe_count); }
-    size_t bytes() const;
 
     Camera camera;
     FilmSettings film;
@@ -67,6 +66,7 @@ class Scene {
     float bounds_radius = 0;   ///< 0: there are none
     std::vector<std::string> warnings, left_out;
     double build_seconds = 0;
+    size_t bytes = 0; ///< of its large arrays and BVHs
 
   private:
     std::vector<std::shared_ptr<const Mesh>> meshes_;
