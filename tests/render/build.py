@@ -114,6 +114,10 @@ class Builder:
         self._spheres: list[d.Spheres] = []
         self._lights: list[d.Lamp] = []
 
+    def seen_by(self, view: d.Camera, film: d.Film) -> "Builder":
+        self._camera, self._film = view, film
+        return self
+
     def material(self, material: d.Material) -> int:
         self._materials.append(d.NamedMaterial(f"material {len(self._materials)}", material))
         return len(self._materials) - 1

@@ -2,6 +2,7 @@
 """The same picture from both integrators, where no closed form is known: block by block, channel by channel."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -89,6 +90,15 @@ def channels_apart() -> Builder:
     return scene.sphere((0, 3, 1), 0.5, d.Light((8, 5, 3)))
 
 
+def glints_through_a_lens() -> Builder:
+    """What smooth metal and a mirror throw into the fog, in a picture with all that a camera has."""
+    scene = field(d.Medium((0.01, 0.02, 0.01), (0.06, 0.1, 0.08)), d.Conductor(0.03, f0=grey(0.9)))
+    scene.sphere((1.5, 3, 1), 0.7, d.Mirror(WHITE)).sphere((-1, 6, 0.8), 0.6, d.Glass(1.4))
+    view = replace(camera((0, -4, 4), (0, 8, 1.5), 60), shift=(0.1, -0.05), lens_radius=0.2, focus_distance=7)
+    film = d.Film(40, 30, (5, 3, 37, 27), "blackman_harris", 1.8)
+    return scene.seen_by(replace(view, clip_start=0.5, clip_end=40), film)
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -101,6 +111,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "thick": lambda: field(d.Medium(grey(0.01), grey(0.29))),
     "smooth metal": lambda: field(d.Medium(grey(0.01), grey(0.06)), d.Conductor(0.05, f0=grey(0.8))),
     "glass": glass_in_fog,
+    "glints through a lens": glints_through_a_lens,
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
     "lamps": lamps_in_fog,

@@ -31,6 +31,9 @@ inline bool is_specular(const Lobe &lobe) {
 inline Rgb albedo(const Lobe &lobe) {
     return std::visit([](const auto &l) { return albedo(l); }, lobe);
 }
+inline float peak(const Lobe &lobe) {
+    return std::visit([](const auto &l) { return peak(l); }, lobe);
+}
 inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi) {
     return std::visit([&](const auto &l) { return eval(l, wo, wi); }, lobe);
 }
@@ -98,6 +101,16 @@ inline bool has_specular(Bsdf bsdf) {
         if (is_specular(l.lobe))
             return true;
     return false;
+}
+
+/// No f cos_o of any channel is larger: what bounds the light that a surface can throw at a point. Infinite with
+/// mirrors.
+inline float peak(Bsdf bsdf) {
+    float sum = 0;
+    for (const WeightedLobe &l : bsdf)
+        if (l.weight > 0)
+            sum += l.weight * peak(l.lobe);
+    return sum;
 }
 
 /// Reflectance for the albedo AOV: an approximation that knows no direction.

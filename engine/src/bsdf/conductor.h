@@ -29,6 +29,12 @@ inline Rgb albedo(const Conductor &lobe) {
     return fresnel(lobe, 1);
 }
 
+/// No f cos_o of any channel is larger: D <= 1 / (pi alpha^2), V cos_o <= 1 / (2 alpha) for each kind of masking, F
+/// <= 1.
+inline float peak(const Conductor &lobe) {
+    return is_specular(lobe) ? kInfinity : 1 / (2 * kPi * lobe.alpha * lobe.alpha * lobe.alpha);
+}
+
 inline Rgb eval(const Conductor &lobe, const Vec3f &wo, const Vec3f &wi) {
     if (is_specular(lobe) || !(wi.z > 0))
         return {};

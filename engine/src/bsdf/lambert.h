@@ -31,5 +31,9 @@ inline bool is_specular(const Lambert &) {
 inline Rgb albedo(const Lambert &lobe) {
     return lobe.albedo;
 }
+/// No f cos_o of any channel is larger.
+inline float peak(const Lambert &lobe) {
+    return max_component(lobe.albedo) / kPi;
+}
 
 } // namespace glimmer

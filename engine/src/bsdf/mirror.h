@@ -24,6 +24,9 @@ inline std::optional<BsdfSample> sample(const Mirror &lobe, const Vec3f &wo, Vec
 inline bool is_specular(const Mirror &) {
     return true;
 }
+inline float peak(const Mirror &) {
+    return kInfinity;
+}
 inline Rgb albedo(const Mirror &lobe) {
     return lobe.reflectance;
 }

@@ -25,6 +25,12 @@ inline Rgb albedo(const ReportMetal &lobe) {
     return lobe.albedo + lobe.f0;
 }
 
+/// No f cos_o of any channel is larger (see Conductor).
+inline float peak(const ReportMetal &lobe) {
+    const float alpha = std::max(lobe.alpha, kSmoothAlpha);
+    return max_component(lobe.albedo) / kPi + 1 / (2 * kPi * alpha * alpha * alpha);
+}
+
 /// Probability of sampling the diffuse lobe: by reflectance, with a tenth of it shared equally, since Schlick's term
 /// grows from any f0.
 inline float diffuse_probability(const ReportMetal &lobe) {

@@ -2,6 +2,7 @@
 #include "integrator/light_paths.h"
 
 #include "integrator/glass_crossing.h"
+#include "integrator/held_share.h"
 #include "integrator/surroundings.h"
 #include "light/emission.h"
 #include "medium/phase.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr float kGuidedStart = 0.85f;       // of the paths start by importance, the rest at any light
 constexpr uint32_t kVertexGuard = 1u << 20; // of one path with its branches
+constexpr uint32_t kBeams = 32;              // of what no vertex holds, at a surface
 constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 
 /// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way
@@ -22,13 +24,13 @@ constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 /// bounded connections take away of it.
 class LightPath {
   public:
-    LightPath(const Scene &scene, const CameraImportance &importance, Sampler &sampler, RayCounter &rays,
-              LightVertices &out)
-        : scene_(scene), importance_(importance), sampler_(sampler), rays_(rays), out_(out) {}
+    LightPath(const Scene &scene, const CameraImportance &importance, const PoolSettings &settings, Sampler &sampler,
+              RayCounter &rays, LightVertices &out)
+        : scene_(scene), importance_(importance), settings_(settings), sampler_(sampler), rays_(rays), out_(out) {}
 
     void trace(const Emission &start, bool sharp, const GlassStack &around, float target) {
         target_ = target;
-        branches_.push_back({start.ray, start.power, around, sharp, 0});
+        branches_.push_back({start.ray, start.power, around, sharp});
         for (uint32_t i = 0; i < kVertexGuard && !branches_.empty(); ++i) {
             const Branch next = branches_.back();
             branches_.pop_back();
@@ -42,8 +44,10 @@ class LightPath {
         Ray ray;
         Rgb power;
         GlassStack glass;
-        bool sharp;         ///< straight from a light without size
-        uint32_t chain = 0; ///< mirrors and glass in a row
+        bool sharp;            ///< straight from a light without size
+        uint32_t chain = 0;    ///< mirrors and glass in a row
+        float unheld = 0;      ///< the part of the power that no vertex holds where the ray began; 0 but on surfaces
+        bool specular = false; ///< there; else that part is a vertex's, and counts as its connections do
     };
 
     void segment(Branch path) {
@@ -59,6 +63,17 @@ class LightPath {
         }
         if (hit)
             scatter_at_surface(path, *hit);
+    }
+
+    /// What no vertex holds of the light that leaves a surface, seen in the fog.
+    void shine(const Branch &path) {
+        if (!(path.unheld > 0) || !is_seen(scene_, path.ray))
+            return;
+        Beam beam{path.ray, path.power, path.unheld, path.specular};
+        ++rays_.rays;
+        if (const auto hit = scene_.accel->intersect(path.ray))
+            beam.ray.t_max = hit->t;
+        splat(scene_, beam, settings_, sampler_, rays_, out_.splats);
     }
 
     /// The weight window: what a path carries to x, relative to what the importance of the place asks for. Below 1 it
@@ -91,6 +106,7 @@ class LightPath {
         split(path, weight, [&](Branch &next) {
             next.sharp = false;
             next.chain = 0;
+            next.unheld = 0;
             next.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(before, sampler_.next_2d()).direction};
             branches_.push_back(next);
         });
@@ -119,19 +135,29 @@ class LightPath {
             return;
         if (!is_specular(bsdf))
             out_.surface.push_back(v);
-        split(path, weight, [&](Branch next) { reflect(next, v, surface, bsdf); });
+        if (scene_.medium && path.glass.empty() && !is_held(peak(bsdf)))
+            for (uint32_t k = 0; k < kBeams; ++k) {
+                Branch beam = path;
+                beam.power *= 1.0f / kBeams;
+                if (reflect(beam, v, surface, bsdf))
+                    shine(beam);
+            }
+        split(path, weight, [&](Branch next) {
+            if (reflect(next, v, surface, bsdf))
+                branches_.push_back(next);
+        });
     }
 
     /// Samples the adjoint of what a camera path does: f |w_in.ns| / |w_in.ng| * |w_out.ng|, with the frame as seen
     /// along w_out (Veach 1997, 5.3). Where the normals differ, an eighth of the directions is drawn about the true
     /// normal, since the frame of w_in has no samples for some that the camera can see.
-    void reflect(Branch &path, const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
+    bool reflect(Branch &path, const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
         const bool bent = !(v.shading == v.geometric);
         const Vec3f own_shading = dot(v.incoming, v.shading) > 1e-6f ? v.shading : v.geometric;
         const Frame frame(own_shading);
         const Vec3f incoming = frame.to_local(v.incoming);
         if (!(incoming.z > 0))
-            return;
+            return false;
         constexpr float kTrueNormal = 0.125f;
         Vec3f direction;
         float density;
@@ -142,34 +168,39 @@ class LightPath {
         } else {
             const auto s = sample(bsdf, incoming, sampler_.next_1d(), sampler_.next_2d());
             if (!s)
-                return;
+                return false;
             direction = normalize(frame.to_world(s->wi));
             if (!(dot(direction, v.geometric) > 0))
-                return;
+                return false;
             if (!s->specular)
                 path.chain = 0;
             else if (path.sharp || !survives_chain(path))
-                return;
+                return false;
             density = s->pdf;
             if (!bent || s->specular) {
                 path.power *= s->weight * ((incoming.z / dot(v.incoming, v.geometric)) *
                                            (dot(direction, v.geometric) / std::max(s->wi.z, 1e-7f)) /
                                            (bent ? 1 - kTrueNormal : 1.0f));
-                return leave(path, surface, direction);
+                const float held = s->specular ? 0 : held_share(bsdf, s->wi, incoming);
+                leave(path, surface, direction, 1 - held, s->specular);
+                return true;
             }
         }
         const float cosine = dot(direction, v.geometric);
         if (!(cosine > 0))
-            return;
+            return false;
         density = (1 - kTrueNormal) * density + kTrueNormal * pdf_cosine_hemisphere(cosine);
-        path.power *= connection_factor(v, bsdf, direction) * (1 / density);
-        return leave(path, surface, direction);
+        const Connection c = connect(v, bsdf, direction);
+        path.power *= c.factor * (1 / density);
+        leave(path, surface, direction, 1 - c.held, false);
+        return true;
     }
 
-    void leave(Branch &path, const Interaction &surface, const Vec3f &direction) {
+    void leave(Branch &path, const Interaction &surface, const Vec3f &direction, float unheld, bool specular) {
         path.sharp = false;
+        path.unheld = unheld;
+        path.specular = specular;
         path.ray = {surface.origin_towards(direction), direction};
-        branches_.push_back(path);
     }
 
     bool survives_chain(Branch &path) {
@@ -190,11 +221,15 @@ class LightPath {
             return;
         if (s.transmitted)
             path.glass = crossing.beyond;
-        leave(path, surface, direction);
+        leave(path, surface, direction, 1, true);
+        if (scene_.medium && path.glass.empty())
+            shine(path);
+        branches_.push_back(path);
     }
 
     const Scene &scene_;
     const CameraImportance &importance_;
+    const PoolSettings &settings_;
     Sampler &sampler_;
     RayCounter &rays_;
     LightVertices &out_;
@@ -204,7 +239,7 @@ class LightPath {
 
 } // namespace
 
-Rgb connection_factor(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction) {
+Connection connect(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction) {
     const float cosine = dot(direction, v.geometric);
     if (!(cosine > 0))
         return {};
@@ -212,7 +247,8 @@ Rgb connection_factor(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction)
     const Vec3f incoming = frame.to_local(v.incoming), outgoing = frame.to_local(direction);
     if (!(incoming.z > 0) || !(outgoing.z > 0))
         return {};
-    return eval(bsdf, outgoing, incoming) * (cosine / dot(v.incoming, v.geometric));
+    const Rgb f_cos = eval(bsdf, outgoing, incoming);
+    return {f_cos * (cosine / dot(v.incoming, v.geometric)), held_share(f_cos, outgoing.z, incoming.z)};
 }
 
 CameraImportance::CameraImportance(const Scene &scene, std::vector<Vec3f> points) : points_(std::move(points)) {
@@ -251,7 +287,7 @@ std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixe
     return camera.ray.origin + camera.ray.direction * c.t;
 }
 
-LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, uint32_t paths,
+LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, const PoolSettings &settings,
                                 Sampler &sampler, const std::atomic<bool> &stop, RayCounter &rays) {
     const LightSet &lights = scene.lights;
     std::vector<double> shares(lights.size());
@@ -269,11 +305,11 @@ LightVertices trace_light_paths(const Scene &scene, const CameraImportance &impo
         if (!lights.bound(i).infinite)
             shares[i] = (total > 0 ? double(kGuidedStart) * shares[i] / total + double(1 - kGuidedStart) / finite
                                    : 1.0 / finite);
-    LightPath path(scene, importance, sampler, rays, out);
+    LightPath path(scene, importance, settings, sampler, rays, out);
     // One systematic draw: light i gets its share of the paths, to within one.
     double cursor = double(sampler.next_1d()), sum = 0;
     for (uint32_t i = 0; i < lights.size(); ++i) {
-        sum += shares[i] * paths;
+        sum += shares[i] * settings.paths;
         const LightBound &b = lights.bound(i);
         const bool inwards = length(b.center) < b.radius; // the camera stands at the origin
         for (; cursor < sum && !stop.load(std::memory_order_relaxed); cursor += 1) {
@@ -281,7 +317,7 @@ LightVertices trace_light_paths(const Scene &scene, const CameraImportance &impo
             auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());
             if (!start || is_black(start->power))
                 continue;
-            start->power *= float(1 / (shares[i] * paths));
+            start->power *= float(1 / (shares[i] * settings.paths));
             const float target = max_component(start->power) * importance(b.center);
             path.trace(*start, std::holds_alternative<PointLamp>(lights[i]), glass_around(scene, start->ray.origin),
                        target);

@@ -6,6 +6,7 @@
 #include "bsdf/bsdf.h"
 #include "integrator/glass_stack.h"
 #include "integrator/integrator.h"
+#include "integrator/splat.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -37,11 +38,17 @@ struct SurfaceVertex {
 struct LightVertices {
     FogVertices fog;
     std::vector<SurfaceVertex> surface;
+    std::vector<Splat> splats;
 };
 
-/// f(incoming, direction) |incoming.ns| / |incoming.ng| * |direction.ng|: the part of the vertex's power that leaves
-/// per solid angle towards the unit `direction`, as a camera path that arrives from there would count it.
-Rgb connection_factor(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction);
+/// What of the vertex leaves towards a direction.
+struct Connection {
+    /// f(incoming, direction) |incoming.ns| / |incoming.ng| * |direction.ng|: the part of the power per solid angle, as
+    /// a camera path that arrives from there would count it.
+    Rgb factor;
+    float held = 1; ///< the share of it that a pool may join to points of the fog
+};
+Connection connect(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction);
 
 /// What the camera could see of a point: the importance that light paths are steered by (never their mean). Sum over
 /// fog points q on random camera rays of e^(-kappa d) / sqrt(d^2 + l^2).
@@ -59,9 +66,9 @@ class CameraImportance {
 std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
                                        Sampler &sampler, RayCounter &rays);
 
-/// Traces `paths` light paths; fewer, and of no use, once `stop` is set. The mean over passes of the vertices' power,
-/// anywhere, is the power that is scattered there.
-LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, uint32_t paths,
+/// Traces settings.paths light paths; fewer, and of no use, once `stop` is set. The mean over passes of the vertices'
+/// power, anywhere, is the power that is scattered there.
+LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, const PoolSettings &settings,
                                 Sampler &sampler, const std::atomic<bool> &stop, RayCounter &rays);
 
 } // namespace glimmer

@@ -48,10 +48,11 @@ void LightPool::set_bounds() {
     const FilmSettings &film = scene_.film;
     const Rectangle all{film.crop_x, film.crop_y, film.crop_width, film.crop_height};
     const std::vector<Vec3f> points = seen_points(all, kPoints, sampler, rays);
-    const uint32_t paths = std::min(settings_.paths, 8192u);
+    PoolSettings pilot_settings = settings_;
+    pilot_settings.paths = std::min(settings_.paths, 8192u);
     const CameraImportance importance(scene_, seen_points(all, kImportancePoints, sampler, rays));
     const std::atomic<bool> never{false};
-    const LightVertices pilot = trace_light_paths(scene_, importance, paths, sampler, never, rays);
+    const LightVertices pilot = trace_light_paths(scene_, importance, pilot_settings, sampler, never, rays);
     const float sigma = max_component(scene_.medium->sigma_t);
     std::vector<float> densities;
     for (const Vec3f &q : points) {
@@ -67,11 +68,18 @@ void LightPool::set_bounds() {
     float bound = 0.1f / sigma; // hardly any vertices: what is left for the pool is little
     if (!densities.empty()) {
         std::nth_element(densities.begin(), densities.begin() + long(densities.size() / 2), densities.end());
-        const float density = densities[densities.size() / 2] * float(settings_.paths) / float(paths);
+        const float density = densities[densities.size() / 2] * float(settings_.paths) / float(pilot_settings.paths);
         bound = std::min(std::sqrt(sigma / (4 * kPi * density)), 1 / sigma);
     }
     settings_.fog_bound = bound;
     settings_.surface_bound = 2 * bound;
+    std::vector<float> distances;
+    for (const Vec3f &q : points)
+        distances.push_back(length(q)); // the camera stands at the origin
+    if (!distances.empty()) {
+        std::nth_element(distances.begin(), distances.begin() + long(distances.size() / 2), distances.end());
+        settings_.splat_bound = 0.2f * distances[distances.size() / 2];
+    }
 }
 
 std::vector<Vec3f> LightPool::seen_points(const Rectangle &pixels, uint32_t count, Sampler &sampler,
@@ -92,7 +100,7 @@ std::unique_ptr<const PassData> LightPool::prepare_pass(uint64_t seed, uint64_t 
     const FilmSettings &film = scene_.film;
     const CameraImportance importance(scene_, seen_points({film.crop_x, film.crop_y, film.crop_width, film.crop_height},
                                                           kImportancePoints, sampler, rays));
-    pass->vertices = trace_light_paths(scene_, importance, settings_.paths, sampler, stop, rays);
+    pass->vertices = trace_light_paths(scene_, importance, settings_, sampler, stop, rays);
     return pass;
 }
 
@@ -101,7 +109,12 @@ std::unique_ptr<const BlockData> LightPool::prepare_block(const PassData &data, 
     const auto &pass = static_cast<const LightPass &>(data);
     Sampler sampler = stream(kBlockStream, pass.seed, pass.sample, block.x, block.y);
     const std::vector<Vec3f> points = seen_points(block, kBlockPoints, sampler, rays);
-    return std::make_unique<LightPoolBlock>(settings_, VertexPool(scene_, pass.vertices, settings_, points, sampler));
+    auto shared = std::make_unique<LightPoolBlock>(
+        settings_, VertexPool(scene_, pass.vertices, settings_, points, sampler), block);
+    for (const Splat &s : pass.vertices.splats)
+        if (s.x - block.x < block.width && s.y - block.y < block.height) // unsigned: not before it either
+            shared->splats[size_t(s.y - block.y) * block.width + (s.x - block.x)] += s.radiance;
+    return shared;
 }
 
 std::unique_ptr<const LightPool> plan_light_pool(const Scene &scene, const DepthLimits &limits,

@@ -7,9 +7,16 @@
 namespace glimmer {
 
 struct LightPoolBlock final : BlockData {
-    LightPoolBlock(const PoolSettings &settings_, VertexPool &&pool_) : settings(settings_), pool(std::move(pool_)) {}
+    LightPoolBlock(const PoolSettings &settings_, VertexPool &&pool_, const Rectangle &pixels_)
+        : settings(settings_), pool(std::move(pool_)), pixels(pixels_), splats(size_t(pixels.width) * pixels.height) {}
+    /// What the splats of the pass add to a pixel of the block.
+    const Rgb &splatted(uint32_t x, uint32_t y) const {
+        return splats[size_t(y - pixels.y) * pixels.width + (x - pixels.x)];
+    }
     PoolSettings settings;
     VertexPool pool;
+    Rectangle pixels;
+    std::vector<Rgb> splats; ///< (height, width)
 };
 
 class LightPool {

@@ -31,8 +31,11 @@ class PathIntegrator final : public Integrator {
         PathState state;
         state.ray = camera.ray;
         state.glass = around_camera_;
-        return PathSample(scene_, limits_, options_, static_cast<const LightPoolBlock *>(block), sampler, rays)
-            .run(state);
+        const auto *pool = static_cast<const LightPoolBlock *>(block);
+        FilmSample result = PathSample(scene_, limits_, options_, pool, sampler, rays).run(state);
+        if (pool)
+            result.fog += pool->splatted(camera.pixel_x, camera.pixel_y);
+        return result;
     }
 
     std::string kernel() const override {

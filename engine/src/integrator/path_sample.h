@@ -22,7 +22,7 @@ inline constexpr uint64_t kVertexGuard = 1u
 
 /// Stratified sample sets of the camera's own segment; everything later draws independent numbers. The film has 0
 /// and 1.
-enum Set : uint32_t { kSetCollision = 2, kSetPhase, kSetLobe, kSetBsdf, kSetLine = 16, kSetLight = 80 };
+enum Set : uint32_t { kSetCollision = 2, kSetPhase, kSetLine = 16, kSetLight = 80, kSetLobe = 128, kSetBsdf };
 
 /// The branches of one sample, kept from sample to sample so that the path loop allocates nothing.
 inline std::vector<PathState> &thread_stack() {
@@ -65,9 +65,9 @@ class PathSample {
     void gather_along(const PathState &state, float end, const Homogeneous &fog);
     /// All light that reaches state.ray.origin scattered, as the fog scatters it there: from the pool, and by a short
     /// ray for what the pool's bounded connections leave out. `scale`: the point is one of so many.
-    void gather(PathState &state, float scale);
-    /// The share 1 - w(d) of the vertex that a ray from a gather meets. Specular surfaces hold no vertices: they are
-    /// passed in full.
+    /// `splatted`: the share of what no vertex holds that splats bring here.
+    void gather(PathState &state, float scale, float splatted);
+    /// The share 1 - w(d) of the vertex that a ray from a gather meets; beyond, what no vertex holds (held_share.h).
     void compensate(PathState &state, const Homogeneous &fog);
     /// The largest transmittance of a channel as far as absorption goes.
     static float least_absorbed(const Homogeneous &fog, float t) {
@@ -133,8 +133,10 @@ class PathSample {
     // -- Surfaces
     // --------------------------------------------------------------------------------------------------------
     void note_first_surface(const Interaction &surface);
-    /// rough: also by the lobes that hold light vertices; else by mirrors and glass alone.
-    void scatter_at_surface(PathState &state, const Interaction &surface, bool rough = true);
+    /// What of a surface is left to scatter: rough, where splats bring what mirrors and glass do; unheld, where light
+    /// vertices have brought their share (held_share.h).
+    enum class Lobes { all, rough, unheld };
+    void scatter_at_surface(PathState &state, const Interaction &surface, Lobes lobes = Lobes::all);
     /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
     /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
     Vec3f lit_point(const Interaction &surface, const Vec3f &geometric) const {
@@ -142,8 +144,9 @@ class PathSample {
             surface.body >= scene_.accel->instances().size() && !is_black(scene_.materials[surface.material].emission);
         return shining_sphere ? surface.origin_towards(geometric) : surface.position;
     }
+    /// The light of `branches` samples of the BSDF comes in beside it.
     void sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
-                          const Vec3f &geometric, const Vec3f &wo, bool all);
+                          const Vec3f &geometric, const Vec3f &wo, uint32_t branches, bool unheld);
     void pass_glass(PathState &state, const Interaction &surface, const Material &material);
 
     // -- Shared

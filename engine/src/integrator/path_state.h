@@ -46,6 +46,7 @@ struct PathState {
     /// out: a vertex in the fog or on a surface counts no further than here. Infinite for every other segment.
     float fog_reach = kInfinity, surface_reach = kInfinity;
     bool compensates() const { return fog_reach < kInfinity; }
+    bool splatted = false; ///< such a ray, where splats bring what no vertex holds (splat.h)
 
     /// Seen from the camera with nothing but mirrors and glass between.
     bool direct_view() const { return first == First::none; }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scattering at surfaces and glass.
 #include "integrator/glass_crossing.h"
+#include "integrator/held_share.h"
 #include "integrator/mis.h"
 #include "integrator/path_sample.h"
 
+#include <array>
 #include <cmath>
 
 namespace glimmer {
@@ -16,12 +18,16 @@ void PathSample::note_first_surface(const Interaction &surface) {
     result_.material_index = surface.material + 1;
 }
 
-void PathSample::scatter_at_surface(PathState &state, const Interaction &surface, bool rough) {
+void PathSample::scatter_at_surface(PathState &state, const Interaction &surface, Lobes lobes) {
     const Material &material = scene_.materials[surface.material];
-    if (material.kind == MaterialKind::glass)
-        return pass_glass(state, surface, material);
+    if (material.kind == MaterialKind::glass) {
+        if (lobes != Lobes::rough)
+            pass_glass(state, surface, material);
+        return;
+    }
     const Bsdf bsdf = scene_.bsdf(material);
-    if (bsdf.empty() || !(rough || has_specular(bsdf)))
+    const bool unheld = lobes == Lobes::unheld;
+    if (bsdf.empty() || (unheld && is_held(peak(bsdf))))
         return;
     const bool camera = state.depth == 0;
     const Vec3f wo = -state.ray.direction;
@@ -38,48 +44,62 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
     if (state.direct_view())
         result_.albedo = albedo(bsdf);
 
-    const bool all = state.direct_view();
-    if (rough && !is_specular(bsdf))
-        sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, all);
+    // Where mirrors could send each branch to the next surface that branches, one goes on.
+    const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? options_.surface_branches : 1;
+    if (!is_specular(bsdf))
+        sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, branches, unheld);
 
-    const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe) : sampler_.next_1d(),
-                          camera ? sampler_.stratified_2d(kSetBsdf) : sampler_.next_2d());
-    if (!s || !(rough || s->specular))
-        return;
-    const Vec3f wi = normalize(frame.to_world(s->wi));
-    if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
-        return;
-    state.beta *= s->weight;
-    if (!survives(state, surface.position) || (s->specular && !survives_chain(state)))
-        return;
-    state.ray = {surface.origin_towards(wi), wi};
-    ++state.depth;
-    if (s->specular) {
-        state.origin = {};
-        state.order += state.direct_view() ? 0 : 1;
-    } else {
-        state.origin = {};
-        state.chain = 0;
-        state.origin.kind = DirectionOrigin::Kind::surface;
-        state.origin.all_lights = all;
-        state.origin.pdf = s->pdf;
-        state.origin.position = lit_point(surface, geometric);
-        if (state.direct_view())
-            state.first = PathState::First::surface;
-        ++state.order;
+    for (uint32_t k = 0; k < branches; ++k) {
+        const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe + 2 * k) : sampler_.next_1d(),
+                              camera ? sampler_.stratified_2d(kSetBsdf + 2 * k) : sampler_.next_2d());
+        if (!s || (s->specular && lobes == Lobes::rough))
+            continue;
+        const Vec3f wi = normalize(frame.to_world(s->wi));
+        if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
+            continue;
+        PathState next = state;
+        next.beta *= s->weight * (1 / float(branches));
+        next.exempt /= float(branches);
+        if (unheld && !s->specular)
+            next.beta *= 1 - held_share(s->weight * s->pdf, wo_local.z, s->wi.z);
+        if (!survives(next, surface.position) || (s->specular && !survives_chain(next)))
+            continue;
+        next.ray = {surface.origin_towards(wi), wi};
+        ++next.depth;
+        next.origin = {};
+        if (s->specular) {
+            next.order += state.direct_view() ? 0 : 1;
+        } else {
+            next.chain = 0;
+            next.origin.kind = DirectionOrigin::Kind::surface;
+            next.origin.all_lights = every_light(true) || state.direct_view();
+            next.origin.pdf = s->pdf * float(branches);
+            next.origin.position = lit_point(surface, geometric);
+            if (state.direct_view())
+                next.first = PathState::First::surface;
+            ++next.order;
+        }
+        push(next);
     }
-    push(state);
 }
 
 void PathSample::sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
-                                  const Vec3f &geometric, const Vec3f &wo, bool all) {
+                                  const Vec3f &geometric, const Vec3f &wo, uint32_t branches, bool unheld) {
     if (scene_.lights.size() == 0)
         return;
-    const bool camera = state.depth == 0;
+    const bool camera = state.depth == 0, all = state.direct_view();
     const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
     const Vec3f x = lit_point(surface, geometric);
-    for (uint32_t i = 0; i < choices(all); ++i) {
-        const LightChoice choice = choose(i, all, x);
+    struct Candidate {
+        LightSample light;
+        Rgb value; ///< unless hidden
+        float part;
+    };
+    std::array<Candidate, kAllLights> candidates;
+    uint32_t count = 0;
+    const bool one_ray = !all && every_light(true);
+    for (uint32_t i = 0; i < choices(all || one_ray); ++i) {
+        const LightChoice choice = choose(i, all || one_ray, x);
         const auto light = sample_light(scene_.lights[choice.index], x,
                                         camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
         if (!light || !(dot(light->direction, geometric) > 0))
@@ -87,25 +107,44 @@ void PathSample::sample_lights_at(const PathState &state, const Interaction &sur
         const Vec3f wi = frame.to_local(light->direction);
         if (!(wi.z > 0))
             continue;
-        Rgb value = eval(bsdf, wo, wi) * light->radiance * (1 / light->pdf / choice.probability);
+        const Rgb f_cos = eval(bsdf, wo, wi);
+        Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
         if (fog)
             value *= fog->transmittance(light->distance);
-        if (is_black(value) || occluded(surface.origin_towards(light->direction), *light, surface.error))
-            continue;
-        if (!light->delta)
-            value *= balance(choice.probability * light->pdf, pdf(bsdf, wo, wi));
-        value *= state.beta;
-        switch (state.first) {
-        case PathState::First::none:
-            result_.direct += value;
-            break;
-        case PathState::First::surface:
-            result_.indirect += value;
-            break;
-        case PathState::First::fog:
-            result_.fog += value;
-        }
+        if (unheld)
+            value *= 1 - held_share(f_cos, wo.z, wi.z);
+        if (!light->delta && !is_black(value))
+            value *= balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
+        if (!is_black(value))
+            candidates[count++] = {*light, value, value.r + value.g + value.b};
     }
+    Rgb &sum = state.first == PathState::First::none      ? result_.direct
+               : state.first == PathState::First::surface ? result_.indirect
+                                                          : result_.fog;
+    const auto hidden = [&](const Candidate &c) {
+        return occluded(surface.origin_towards(c.light.direction), c.light, surface.error);
+    };
+    if (!one_ray) {
+        for (uint32_t i = 0; i < count; ++i)
+            if (!hidden(candidates[i]))
+                sum += state.beta * candidates[i].value;
+        return;
+    }
+    // The sum as if all were seen, corrected by one of them.
+    Rgb total;
+    float parts = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        total += candidates[i].value;
+        parts += candidates[i].part;
+    }
+    if (!(parts > 0))
+        return;
+    uint32_t chosen = 0;
+    for (float left = sampler_.next_1d() * parts; chosen + 1 < count; left -= candidates[chosen++].part)
+        if (left < candidates[chosen].part)
+            break;
+    const Candidate &c = candidates[chosen];
+    sum += state.beta * (hidden(c) ? total - c.value * (parts / c.part) : total);
 }
 
 void PathSample::pass_glass(PathState &state, const Interaction &surface, const Material &material) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light scattered more than once, from the vertices of light paths (light_pool.h).
+#include "integrator/held_share.h"
 #include "integrator/path_sample.h"
 #include "sampling/warp.h"
 
@@ -19,11 +20,11 @@ void PathSample::gather_along(const PathState &state, float end, const Homogeneo
         at.beta *= c.weight * (1 / float(n));
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
         at.first = state.direct_view() ? PathState::First::fog : state.first;
-        gather(at, float(n));
+        gather(at, float(n), state.depth == 0 ? splat_share(c.t, pool_->settings) : 0);
     }
 }
 
-void PathSample::gather(PathState &state, float scale) {
+void PathSample::gather(PathState &state, float scale, float splatted) {
     const Vec3f x = state.ray.origin;
     state.exempt /= scale;
     if (!survives(state, x))
@@ -35,6 +36,7 @@ void PathSample::gather(PathState &state, float scale) {
     state.fog_reach = k * pool_->settings.fog_bound;
     state.surface_reach = k * pool_->settings.surface_bound;
     state.ray = {x, sample_uniform_sphere(sampler_.next_2d())};
+    state.splatted = splatted > 0 && sampler_.next_1d() < splatted;
     state.origin = {};
     ++state.depth;
     ++state.scatter;
@@ -45,8 +47,10 @@ void PathSample::gather(PathState &state, float scale) {
 
 void PathSample::compensate(PathState &state, const Homogeneous &fog) {
     const float fog_reach = state.fog_reach, surface_reach = state.surface_reach;
+    const bool splatted = state.splatted;
     state.fog_reach = state.surface_reach = kInfinity;
-    const float reach = scene_.has_specular ? kInfinity : std::max(fog_reach, surface_reach);
+    state.splatted = false;
+    const float reach = splatted || is_held(scene_.peak) ? std::max(fog_reach, surface_reach) : kInfinity;
     state.ray.t_max = reach;
     const std::optional<Hit> hit = intersect(state.ray);
     const float end = hit ? hit->t : reach;
@@ -58,10 +62,12 @@ void PathSample::compensate(PathState &state, const Homogeneous &fog) {
             return;
         state.ray.origin = state.ray.origin + state.ray.direction * flight.t;
         sample_light_in_fog(state, state.ray.origin, fog, false);
-        gather(state, 1);
+        gather(state, 1, 0);
     } else if (hit) {
         const Interaction surface = scene_.interaction(state.ray, *hit);
-        scatter_at_surface(state, surface, hit->t <= surface_reach);
+        const bool within = hit->t <= surface_reach;
+        if (within || !splatted)
+            scatter_at_surface(state, surface, !within ? Lobes::unheld : splatted ? Lobes::rough : Lobes::all);
     }
 }
 

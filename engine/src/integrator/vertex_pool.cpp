@@ -168,9 +168,9 @@ Rgb VertexPool::gather(const Vec3f &x, Sampler &sampler, RayCounter &rays) const
         if (!(dot(to_point, v.geometric) > 0))
             continue;
         const float d2 = length_squared(to_point), d = std::sqrt(d2);
-        const Rgb factor = connection_factor(v, scene_.bsdf(scene_.materials[v.material]), to_point / d);
-        const float scale = kIsotropic / (d2 + settings_.surface_bound * settings_.surface_bound);
-        surface_values[k] = factor * v.power * medium.transmittance(d) * scale;
+        const Connection c = connect(v, scene_.bsdf(scene_.materials[v.material]), to_point / d);
+        const float scale = c.held * kIsotropic / (d2 + settings_.surface_bound * settings_.surface_bound);
+        surface_values[k] = c.factor * v.power * medium.transmittance(d) * scale;
         surface_parts[k] = luminance(surface_values[k]);
         total += surface_values[k];
         parts += surface_parts[k];

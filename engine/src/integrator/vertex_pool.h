@@ -6,15 +6,6 @@
 
 namespace glimmer {
 
-/// Lengths and counts of the estimator, derived from the scene (see plan_pool).
-struct PoolSettings {
-    uint32_t paths = 0;                          ///< light paths a pass
-    uint32_t gathers = 4;                        ///< fog points on a segment that the camera sees directly
-    uint32_t sub_pools = 8;                      ///< each gather takes one of them, so that neighbours differ
-    uint32_t fog_picks = 128, surface_picks = 8; ///< in a sub-pool; fog_picks a multiple of 8
-    float fog_bound = 1, surface_bound = 2; ///< d0, lengths: a connection counts w(d) = d^2 / (d^2 + d0^2) of itself
-};
-
 /// Resampled vertices. p_j is proportional to what vertex j brings to representative points of the block, one
 /// systematic draw.
 class VertexPool {

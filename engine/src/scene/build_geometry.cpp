@@ -46,7 +46,7 @@ void SceneBuilder::use(uint32_t index) {
     const Material &material = scene_.materials[index];
     used_[index] = true;
     scene_.has_glass |= material.kind == MaterialKind::glass;
-    scene_.has_specular |= material.kind == MaterialKind::glass || has_specular(scene_.bsdf(material));
+    scene_.peak = std::max(scene_.peak, material.kind == MaterialKind::glass ? kInfinity : peak(scene_.bsdf(material)));
 }
 
 void SceneBuilder::build_geometry() {

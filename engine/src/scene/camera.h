@@ -5,11 +5,23 @@
 #include "geometry/ray.h"
 #include "math/vec.h"
 
+#include <cstdint>
+#include <optional>
+
 namespace glimmer {
 
 struct CameraRay {
-    Ray ray;          ///< t_max: the far clipping plane along this ray
-    float inv_cosine; ///< 1 / cosine of the angle to the axis
+    Ray ray;                   ///< t_max: the far clipping plane along this ray
+    float inv_cosine;          ///< 1 / cosine of the angle to the axis
+    uint32_t pixel_x, pixel_y; ///< of the whole picture
+};
+
+/// A point as the camera sees it.
+struct Projection {
+    Vec2f film;             ///< as for Camera::generate; may lie outside 0 to 1
+    Vec3f start, direction; ///< of the ray to it
+    float distance, t;      ///< of the point from the lens, and from `start`
+    float solid_angle;      ///< seen from the lens, of the whole film were it all as this place is
 };
 
 struct Camera {
@@ -33,7 +45,25 @@ struct Camera {
         const float inv_cosine = length(along);
         const Vec3f direction = along / inv_cosine;
         origin += direction * (clip_start * inv_cosine);
-        return {{origin, direction, (clip_end - clip_start) * inv_cosine}, inv_cosine};
+        return {{origin, direction, (clip_end - clip_start) * inv_cosine}, inv_cosine, 0, 0};
+    }
+
+    /// The inverse: where a point is seen from a point of the lens (unit disk); nothing behind the clipping planes.
+    std::optional<Projection> project(const Vec3f &x, Vec2f lens) const {
+        const Vec3f from = (right * lens.x + up * lens.y) * lens_radius, way = x - from;
+        const float depth = dot(way, forward), distance = length(way);
+        if (!(depth > clip_start && depth < clip_end))
+            return std::nullopt;
+        Vec3f pinhole = way / depth;
+        if (lens_radius > 0)
+            pinhole += from / focus_distance;
+        const float sx = dot(pinhole, right) / tan_half_x, sy = dot(pinhole, up) / tan_half_x;
+        const Vec2f film{(sx + 1) / 2 - shift.x, (1 - (sy - 2 * shift.y) / aspect) / 2};
+        const float cosine = depth / distance, hidden = clip_start / cosine;
+        const Vec3f direction = way / distance;
+        return Projection{
+            film,     from + direction * hidden, direction,
+            distance, distance - hidden,         4 * tan_half_x * tan_half_x * aspect * cosine * cosine * cosine};
     }
 };
 

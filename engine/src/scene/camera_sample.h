@@ -11,4 +11,7 @@ namespace glimmer {
 /// sum.
 CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens);
 
+/// The filter's density in one of its two dimensions, per pixel, `offset` pixels from the middle.
+float filter_density(const FilmSettings &film, float offset);
+
 } // namespace glimmer

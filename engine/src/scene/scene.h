@@ -61,9 +61,9 @@ class Scene {
     std::unique_ptr<Accel> accel;
     LightSet lights;
     bool has_glass = false;
-    bool has_specular = false; ///< glass, or a mirror among the lobes of a material in use
-    Vec3f bounds_center;       ///< of all surfaces and finite lights
-    float bounds_radius = 0;   ///< 0: there are none
+    float peak = 0;          ///< largest of the materials in use (see peak(Bsdf)); infinite with glass
+    Vec3f bounds_center;     ///< of all surfaces and finite lights
+    float bounds_radius = 0; ///< 0: there are none
     std::vector<std::string> warnings, left_out;
     double build_seconds = 0;
     size_t bytes = 0; ///< of its large arrays and BVHs

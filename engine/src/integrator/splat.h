@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light paths that the camera sees: what mirrors, glass and the narrow lobes of metal throw into the fog in front of
+// it. No vertex holds that light (held_share.h), and a ray from the fog would hit a lobe's light only now and then.
+#pragma once
+
+#include "integrator/integrator.h"
+#include "integrator/pool_settings.h"
+
+#include <vector>
+
+namespace glimmer {
+
+/// Radiance that one light path adds to a pixel of the whole picture in its pass.
+struct Splat {
+    uint32_t x, y;
+    Rgb radiance;
+};
+
+/// The share of what arrives at a fog point from an unheld surface that splats bring, when the camera sees the point
+/// directly, t from where its ray starts; rays from the gathers bring the rest. Near the camera a splat would be
+/// without bound.
+inline float splat_share(float t, const PoolSettings &settings) {
+    return connected_share(t, settings.splat_bound);
+}
+
+/// A segment of a light path through the fog that began at an unheld surface.
+struct Beam {
+    Ray ray; ///< t_max: its end
+    Rgb power;
+    float unheld;  ///< the share of the power that no vertex holds
+    bool specular; ///< else that share would be a vertex's, and counts as its connections do
+};
+
+/// Whether any of it can be in the picture, whatever stands in the way.
+bool is_seen(const Scene &scene, const Ray &beam);
+
+/// Joins points of the beam with random points of the lens (Dutre, Lafortune, Willems 1993), the points drawn by their
+/// angle about the camera, which takes the place of 1/t^2: radiance = power sigma_s T / pdf / (4 pi) T / (t^2 d omega)
+/// times the filter, in every pixel whose filter holds the point's image.
+void splat(const Scene &scene, const Beam &beam, const PoolSettings &settings, Sampler &sampler, RayCounter &rays,
+           std::vector<Splat> &out);
+
+} // namespace glimmer
