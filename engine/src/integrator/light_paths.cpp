@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kGuidedStart = 0.85f;       // of the paths start by importance, the rest at any light
 constexpr uint32_t kVertexGuard = 1u << 20; // of one path with its branches
-constexpr uint32_t kBeams = 32;              // of what no vertex holds, at a surface
+constexpr uint32_t kBeams = 32;             // of what no vertex holds, at a surface
 constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 
 /// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way
