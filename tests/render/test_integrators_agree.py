@@ -99,6 +99,15 @@ def glints_through_a_lens() -> Builder:
     return scene.seen_by(replace(view, clip_start=0.5, clip_end=40), film)
 
 
+def light_by_way_of_metal() -> Builder:
+    """Fog that a screen hides from the light: nearly all that is seen was thrown there by smooth metal."""
+    scene = Builder(camera((2.5, -3, 2), (2.5, 4, 2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
+    scene.mesh(floor(0, 6, (0, 4)), d.Conductor(0.08, f0=WHITE)).mesh(
+        quad((0.7, 4, 2.5), (0, 4, 0), (0, 0, 2)), d.Lambert(grey(0))
+    )
+    return scene.sphere((-0.5, 4, 1.2), 0.4, d.Light(grey(10)))
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -111,6 +120,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "thick": lambda: field(d.Medium(grey(0.01), grey(0.29))),
     "smooth metal": lambda: field(d.Medium(grey(0.01), grey(0.06)), d.Conductor(0.05, f0=grey(0.8))),
     "glass": glass_in_fog,
+    "light by way of metal": light_by_way_of_metal,
     "glints through a lens": glints_through_a_lens,
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
