@@ -15,7 +15,6 @@ import pytest
 from scipy import stats
 
 from addon.scene import description as d
-from tests.engine.library import Scene
 from tests.render.build import Builder, camera, floor, grey, hexagon, sky
 from tests.render.statistics import INTEGRATORS, Array, Measurement, Pictures, repeat
 
