@@ -14,9 +14,9 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kGuidedStart = 0.85f;       // of the paths start by importance, the rest at any light
-constexpr uint32_t kVertexGuard = 1u << 20; // of one path with its branches
-constexpr uint32_t kBeams = 32;             // of what no vertex holds, at a surface
+constexpr float kGuidedStart = 0.85f;         // of the paths start by importance, the rest at any light
+constexpr uint64_t kVertexGuard = 1ull << 32; // of one path with its branches
+constexpr uint32_t kBeams = 32;               // of what no vertex holds, at a surface
 constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 
 /// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way
@@ -31,11 +31,12 @@ class LightPath {
     void trace(const Emission &start, bool sharp, const GlassStack &around, float target) {
         target_ = target;
         branches_.push_back({start.ray, start.power, around, sharp});
-        for (uint32_t i = 0; i < kVertexGuard && !branches_.empty(); ++i) {
+        for (uint64_t i = 0; i < kVertexGuard && !branches_.empty(); ++i) {
             const Branch next = branches_.back();
             branches_.pop_back();
             segment(next);
         }
+        out_.unfinished |= !branches_.empty();
         branches_.clear();
     }
 
@@ -79,7 +80,7 @@ class LightPath {
     /// The weight window: what a path carries to x, relative to what the importance of the place asks for. Below 1 it
     /// lives on with that probability; far above, it is worth several paths.
     float survive(Branch &path, const Vec3f &x) {
-        const float weight = max_component(path.power) * importance_(x) / target_;
+        const float weight = max_component(path.power) * importance_(x) * surroundings_importance(scene_, x) / target_;
         if (!(weight > 0) || (weight < 1 && sampler_.next_1d() >= weight))
             return 0;
         if (weight >= 1)
@@ -255,12 +256,7 @@ CameraImportance::CameraImportance(const Scene &scene, std::vector<Vec3f> points
     if (!scene.medium)
         return;
     soften_ = 0.25f / (max_component(scene.medium->sigma_t) * max_component(scene.medium->sigma_t));
-    kappa_ = kInfinity; // of the channel that carries light furthest
-    for (int c = 0; c < 3; ++c)
-        if (const float t = scene.medium->sigma_t[c], s = scene.medium->sigma_s[c]; s > 0)
-            kappa_ = std::min(kappa_, std::sqrt(3 * std::max(1 - s / t, 0.0f)) * t);
-    if (!(kappa_ < kInfinity))
-        kappa_ = 0;
+    kappa_ = diffusion(*scene.medium);
 }
 
 float CameraImportance::operator()(const Vec3f &x) const {

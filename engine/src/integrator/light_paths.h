@@ -39,6 +39,7 @@ struct LightVertices {
     FogVertices fog;
     std::vector<SurfaceVertex> surface;
     std::vector<Splat> splats;
+    bool unfinished = false; ///< a path was broken off: what is missing is a bias
 };
 
 /// What of the vertex leaves towards a direction.

@@ -14,12 +14,15 @@ constexpr uint32_t kImportancePoints = 32; // seen points that steer the light p
 constexpr uint32_t kBlockPoints = 12;      // seen points that stand for a block
 constexpr uint32_t kPixelsPerPath = 6;     // light paths cost about a tenth of the camera's work then
 constexpr uint32_t kMostPaths = 24576; // every block looks at all their vertices: beyond, that is what takes the time
+constexpr uint32_t kMostVertices = 1u << 18; // of a pass, about: for the same reason, and for memory
+constexpr float kDense = 50, kDiffuse = 5;   // radii of the scene in mean free paths, and in lengths of diffusion
 constexpr uint64_t kPassStream = 0x9a55, kBlockStream = 0xb10c,
                    kPilotStream = 0x9107; // keep the streams of random numbers apart
 
 struct LightPass final : PassData {
     size_t bytes() const override {
-        return vertices.fog.x.capacity() * 6 * sizeof(float) + vertices.surface.capacity() * sizeof(SurfaceVertex);
+        return vertices.fog.x.capacity() * 6 * sizeof(float) + vertices.surface.capacity() * sizeof(SurfaceVertex) +
+               vertices.splats.capacity() * sizeof(Splat);
     }
     uint64_t seed, sample;
     LightVertices vertices;
@@ -49,10 +52,13 @@ void LightPool::set_bounds() {
     const Rectangle all{film.crop_x, film.crop_y, film.crop_width, film.crop_height};
     const std::vector<Vec3f> points = seen_points(all, kPoints, sampler, rays);
     PoolSettings pilot_settings = settings_;
-    pilot_settings.paths = std::min(settings_.paths, 8192u);
+    pilot_settings.paths = std::min(settings_.paths, 2048u);
     const CameraImportance importance(scene_, seen_points(all, kImportancePoints, sampler, rays));
     const std::atomic<bool> never{false};
     const LightVertices pilot = trace_light_paths(scene_, importance, pilot_settings, sampler, never, rays);
+    const size_t vertices = std::max(pilot.fog.size(), pilot.surface.size());
+    if (vertices > kMostVertices / settings_.paths * pilot_settings.paths)
+        settings_.paths = std::max(uint32_t(uint64_t(kMostVertices) * pilot_settings.paths / vertices), 64u);
     const float sigma = max_component(scene_.medium->sigma_t);
     std::vector<float> densities;
     for (const Vec3f &q : points) {
@@ -114,6 +120,7 @@ std::unique_ptr<const BlockData> LightPool::prepare_block(const PassData &data, 
     for (const Splat &s : pass.vertices.splats)
         if (s.x - block.x < block.width && s.y - block.y < block.height) // unsigned: not before it either
             shared->splats[size_t(s.y - block.y) * block.width + (s.x - block.x)] += s.radiance;
+    shared->unfinished = pass.vertices.unfinished;
     return shared;
 }
 
@@ -122,6 +129,9 @@ std::unique_ptr<const LightPool> plan_light_pool(const Scene &scene, const Depth
     const DepthLimits none;
     if (!scene.medium || !scene.medium->scatters() || scene.medium->g != 0 || !around_camera.empty() ||
         limits.depth != none.depth || limits.scatter != none.scatter)
+        return nullptr;
+    if (scene.bounds_radius * max_component(scene.medium->sigma_t) > kDense &&
+        scene.bounds_radius * diffusion(*scene.medium) < kDiffuse)
         return nullptr;
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         if (!scene.lights.bound(i).infinite)

@@ -17,6 +17,7 @@ struct LightPoolBlock final : BlockData {
     VertexPool pool;
     Rectangle pixels;
     std::vector<Rgb> splats; ///< (height, width)
+    bool unfinished = false; ///< a light path of the pass was broken off
 };
 
 class LightPool {
@@ -38,7 +39,8 @@ class LightPool {
 };
 
 /// Null where plain paths take over: no fog that scatters, fog that scatters unevenly (the peak of a phase function
-/// unbounds the connections), a camera within glass, limits on the depth, nothing finite that shines.
+/// unbounds the connections), a camera within glass, limits on the depth, nothing finite that shines; fog so dense and
+/// white that light wanders through all of the scene, where few of a path's thousands of vertices are near the camera.
 std::unique_ptr<const LightPool> plan_light_pool(const Scene &scene, const DepthLimits &limits,
                                                  const GlassStack &around_camera);
 

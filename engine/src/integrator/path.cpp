@@ -33,8 +33,10 @@ class PathIntegrator final : public Integrator {
         state.glass = around_camera_;
         const auto *pool = static_cast<const LightPoolBlock *>(block);
         FilmSample result = PathSample(scene_, limits_, options_, pool, sampler, rays).run(state);
-        if (pool)
+        if (pool) {
             result.fog += pool->splatted(camera.pixel_x, camera.pixel_y);
+            result.unfinished |= pool->unfinished;
+        }
         return result;
     }
 

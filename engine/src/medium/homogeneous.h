@@ -39,6 +39,16 @@ struct Homogeneous {
     }
 };
 
+/// sqrt(3 (1 - albedo)) sigma_t of the channel that carries light furthest: how fast light scattered many times dies
+/// away, per length. 0 where nothing scatters.
+inline float diffusion(const Homogeneous &m) {
+    float least = kInfinity;
+    for (int c = 0; c < 3; ++c)
+        if (m.sigma_s[c] > 0)
+            least = std::min(least, std::sqrt(3 * std::max(1 - m.sigma_s[c] / m.sigma_t[c], 0.0f)) * m.sigma_t[c]);
+    return least < kInfinity ? least : 0;
+}
+
 /// A free flight: a scattering at distance t, or none before t_max (then t = t_max).
 struct FreeFlight {
     float t;
