@@ -10,7 +10,7 @@ from bpy.app.handlers import persistent
 
 from .export.scene import Exported
 from .export.world import BLACK_SKY, ENGINES_BLACK_SKY
-from .film.display import clock, error_text
+from .film.display import NOT_CERTIFIABLE, clock, error_text
 from .film.stamp import fields
 
 _current: dict[str, dict[str, Any]] = {"last": {}}
@@ -87,12 +87,18 @@ def error_summary(report: dict[str, Any]) -> list[str]:
     error = report.get("error")
     if not error:
         return ["Not known before there are some samples"]
-    known_at = report["curve"][-1][0]  # the error is that of the last doubling
-    seconds = max(2.0 * known_at - report["seconds"]["render"], 0.0)
-    return [
-        f"relMSE {error_text(error['relmse'], error['low'], error['high'])}",
-        f"Half of it after {clock(seconds)} more, if it falls as 1/time",
-    ]
+    lines = [f"relMSE {error_text(error['relmse'], error['low'], error['high'])}"]
+    tails = error.get("tails")
+    if tails and not tails["certifiable"]:
+        lines.append(
+            f"{NOT_CERTIFIABLE}, pixel {tails['x']}, {tails['y']} carries {100 * tails['largest_share']:.0f} % of it"
+        )
+    if rate := report.get("rate"):
+        lines.append(f"Falls as time^-{rate['power']:.2f} ({rate['low']:.2f} to {rate['high']:.2f})")
+    for name, what in (("seconds_to_half", "Half of it"), ("seconds_to_target", "Target")):
+        if report.get(name) is not None:
+            lines.append(f"{what} after {clock(report[name])} more")
+    return lines
 
 
 def clear() -> None:

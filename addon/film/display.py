@@ -26,17 +26,20 @@ REFRESH_SECONDS = 0.5
 MAX_REFRESH_SHARE = 0.05
 # More changed tiles than this are handed over as one: each costs Blender a lock and a redraw.
 MAX_TILES = 16
+NOT_CERTIFIABLE = "Not certifiable: heavy tails"
 
 
-def status(progress: Progress, samples: int, target_error: float = 0.0) -> str:
-    """The line that Blender shows while rendering. Limits of 0 are none."""
+def status(progress: Progress, samples: int) -> str:
+    """The line that Blender shows while rendering. samples: of each pixel in the end; 0 is no limit."""
     parts = [f"Sample {progress.samples}/{samples}" if samples else f"Sample {progress.samples}"]
     if progress.seconds_left is not None:
         parts.append(f"Left {clock(progress.seconds_left)}")
     if not isnan(progress.relmse):
         parts.append(f"Error {error_text(progress.relmse, progress.relmse_low, progress.relmse_high)}")
-        if (seconds := seconds_to_target(progress, target_error)) is not None:
-            parts.append(f"Target in {clock(seconds)}")
+        if progress.heavy_tails:
+            parts.append(NOT_CERTIFIABLE)
+        if progress.seconds_to_target is not None:
+            parts.append(f"Target in {clock(progress.seconds_to_target)}")
     parts.append(f"Engine {progress.peak_bytes / 2**20:.0f} MB")
     return " | ".join(parts)
 
@@ -45,14 +48,6 @@ def error_text(relmse: float, low: float | None, high: float | None) -> str:
     if low is None or high is None or isnan(low) or isnan(high):
         return f"{relmse:.2g}"
     return f"{relmse:.2g} ({low:.2g} to {high:.2g})"
-
-
-def seconds_to_target(progress: Progress, target_error: float) -> float | None:
-    """Until the upper end of the interval is down at the target, if it falls as 1/time; None where nothing tells."""
-    if target_error <= 0.0 or not progress.relmse_high > 0.0:
-        return None
-    known_share = 2 ** (progress.samples.bit_length() - 1) / max(progress.samples, 1)  # the error is that of a doubling
-    return max(progress.seconds * (known_share * progress.relmse_high / target_error - 1.0), 0.0)
 
 
 def clock(seconds: float) -> str:
@@ -114,7 +109,7 @@ class Display:
         self._show(self._whole, final=True)
 
     def _tell(self, progress: Progress) -> None:
-        self._engine.update_stats("", status(progress, self._settings.samples, self._settings.target_error))
+        self._engine.update_stats("", status(progress, self._settings.samples))
         self._engine.update_progress(progress.fraction)
         megabytes = progress.peak_bytes / 2**20
         self._engine.update_memory_stats(memory_used=megabytes, memory_peak=megabytes)

@@ -21,6 +21,8 @@ def fields(report: dict[str, Any], layer: str) -> list[tuple[str, str]]:
     }
     if error := report.get("error"):
         values |= {f"error.{name}": error[name] for name in ("relmse", "low", "high", "confidence")}
+        if tails := error.get("tails"):
+            values["error.certifiable"] = tails["certifiable"]
     return [
         (f"glimmer.{layer}.{name}", f"{value:.6g}" if isinstance(value, float) else str(value))
         for name, value in values.items()

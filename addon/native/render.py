@@ -32,6 +32,8 @@ class Progress:
     relmse: float = nan  # NaN when not known
     relmse_low: float = nan  # its interval
     relmse_high: float = nan
+    heavy_tails: bool = False  # too heavy to certify any interval
+    seconds_to_target: float | None = None
     peak_bytes: int = 0
     invalid_samples: int = 0
     version: int = 0  # grows whenever a pixel changed
@@ -128,6 +130,8 @@ class NativeRender:
             relmse=desc.relmse,
             relmse_low=desc.relmse_low,
             relmse_high=desc.relmse_high,
+            heavy_tails=bool(desc.heavy_tails),
+            seconds_to_target=desc.seconds_to_target if desc.seconds_to_target >= 0 else None,
             peak_bytes=desc.peak_bytes,
             invalid_samples=desc.invalid_samples,
             version=desc.version,

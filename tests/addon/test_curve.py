@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The error against time: its table, its plot and its words."""
 
-from math import log10, nan
+from math import log10
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +9,7 @@ import OpenImageIO
 import pytest
 
 from addon.film.curve import BAND, GLYPHS, LINE, Pixels, Point, _label, axis, plot, points_of, table
-from addon.film.display import seconds_to_target, status
+from addon.film.display import status
 from addon.film.png import write_png
 from addon.film.stamp import fields
 from addon.native.render import Progress
@@ -86,22 +86,27 @@ def test_png_files_hold_the_pixels(tmp_path: Path) -> None:
     np.testing.assert_array_equal(image.read_image(0, 0, 0, 3, OpenImageIO.UINT8), pixels)
 
 
-def progress(samples: int = 64, seconds: float = 8.0, high: float = 0.04) -> Progress:
-    return Progress(State.RUNNING, samples, 0.5, seconds, 8.0, relmse=0.03, relmse_low=0.02, relmse_high=high)
+def progress(heavy_tails: bool = False, seconds_to_target: float | None = 24.0) -> Progress:
+    return Progress(
+        State.RUNNING,
+        64,
+        0.5,
+        8.0,
+        8.0,
+        relmse=0.03,
+        relmse_low=0.02,
+        relmse_high=0.04,
+        heavy_tails=heavy_tails,
+        seconds_to_target=seconds_to_target,
+    )
 
 
 def test_the_status_line_tells_error_interval_and_time_to_the_target() -> None:
-    line = status(progress(), 128, 0.01)
+    line = status(progress(), 128)
     assert "Sample 64/128" in line and "Error 0.03 (0.02 to 0.04)" in line
-    assert "Target in 00:24" in line  # four times the error of 8 s: 32 s in all
-    assert "Target" not in status(progress(), 128)
-
-
-def test_the_time_to_the_target_counts_from_when_the_error_was_measured() -> None:
-    # At 96 samples it is still that of 64, which took two thirds of the 12 s.
-    assert seconds_to_target(progress(96, 12.0), 0.01) == pytest.approx(20.0)
-    assert seconds_to_target(progress(high=nan), 0.01) is None
-    assert seconds_to_target(progress(high=0.001), 0.01) == 0.0
+    assert "Target in 00:24" in line and "certifiable" not in line
+    assert "Target" not in status(progress(seconds_to_target=None), 128)
+    assert "Not certifiable: heavy tails" in status(progress(heavy_tails=True), 128)
 
 
 def test_metadata_names_its_layer_and_leaves_out_what_is_not_known() -> None:

@@ -60,6 +60,7 @@ def settings() -> None:
     scene.render.threads_mode, scene.render.threads = "FIXED", 1
     inside.render(OUT / "settings.exr")
     facts["target_report"] = dict(reports.last())
+    facts["target_summary"] = reports.error_summary(reports.last())
     ours.samples, ours.use_samples = samples, False
     ours.use_target_error, ours.use_seconds, ours.seconds = False, True, 0.5
     ours.integrator, ours.seed, ours.use_max_depth, ours.max_depth = "report", 7, True, 1

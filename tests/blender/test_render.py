@@ -195,6 +195,14 @@ def test_the_file_tells_how_it_was_made(out: Path, facts: dict[str, Any]) -> Non
     assert float(attributes["glimmer.ViewLayer.seconds"]) == pytest.approx(report["seconds"]["render"], rel=1e-5)
 
 
+def test_the_panel_tells_the_error_and_the_time_to_half_of_it(facts: dict[str, Any]) -> None:
+    report, lines = facts["target_report"], facts["target_summary"]
+    assert lines[0].startswith(f"relMSE {report['error']['relmse']:.2g} (")
+    assert any(line.startswith("Falls as time^-") for line in lines) == (report["rate"] is not None)
+    assert any("Half of it after" in line for line in lines) == (report["seconds_to_half"] is not None)
+    assert any("Not certifiable" in line for line in lines) != report["error"]["tails"]["certifiable"]
+
+
 def test_the_error_curve_stands_beside_every_frame_where_it_is_asked_for(out: Path, facts: dict[str, Any]) -> None:
     assert not list(out.glob("fixed_*.error.*")) and not list(out.glob("full*.error.*"))
     for frame in (1, 2, 3):
