@@ -2,6 +2,7 @@
 """Where things are, how large, and what triangles they are made of must not matter."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -158,6 +159,33 @@ def on_surface(sphere: bool) -> d.SceneDescription:
     return scene.mesh(floor(), d.Lambert(BLACK)).done()
 
 
+def clipped_glass() -> d.SceneDescription:
+    """A camera in glass whose rays start outside it, in fog that absorbs, 8 from a light."""
+    view = replace(radiometer((0, 0, 0), (0, 1, 0)), clip_start=2.0)
+    scene = Builder(view, medium=d.Medium(grey(0.1), BLACK)).sphere((0, 0, 0), 1, d.Glass(1.5))
+    return scene.sphere((0, 12, 0), 2, d.Light(WHITE)).done()
+
+
+def lens_across_glass(sigma: float) -> d.SceneDescription:
+    """A ball of glass of index 1 at the middle of a lens twice as wide, fog around it, a sheet of light at 1."""
+    view = replace(camera((0, 0, 0), (0, 1, 0), 1e-2), lens_radius=1.0, focus_distance=1e4)
+    scene = Builder(view, medium=d.Medium(grey(sigma), BLACK)).sphere((0, 0, 0), 0.5, d.Glass(1))
+    return scene.mesh(quad((0, 1, 0), (5, 0, 0), (0, 0, 5)), d.Light(WHITE)).done()
+
+
+def through_lens(sigma: float) -> float:
+    """e^-sigma (3/4 + int_0^(1/2) 2 r e^(sigma sqrt(1/4 - r^2)) dr)."""
+    s = sigma
+    return float(np.exp(-s) * (0.75 + 2 * (np.exp(s / 2) * (0.5 / s - 1 / s**2) + 1 / s**2)))
+
+
+def clipped_light() -> d.SceneDescription:
+    """White fog in a ball of light around a smaller one, in which the camera stands; its rays start between."""
+    view = replace(camera((0, 0, 0), (0, 1, 0), 60), clip_start=0.8)
+    scene = Builder(view, medium=d.Medium(BLACK, grey(1)))
+    return scene.sphere((0, 0, 0), 2, d.Light(WHITE)).sphere((0, 0, 0), 0.7, d.Light(WHITE)).done()
+
+
 def refused(_integrator: str, _clock: Clock) -> Estimate:
     """The share of bad inputs that the engine refuses."""
     good = floor()
@@ -290,6 +318,13 @@ def cases() -> list[Case]:
             FLUX * exact.sphere_irradiance(0.3, 0),
             rounding=1e-5,
         ),
+        picture(
+            "rays that start outside the glass around the camera", clipped_glass, np.exp(-0.8), within=0, quick=True
+        ),
+        picture(
+            "a ball of glass within a lens twice as wide", partial(lens_across_glass, 2), through_lens(2), rounding=2e-3
+        ),
+        picture("rays that start outside the light around the camera, in white fog", clipped_light, 1, within=0.03),
         picture("camera on a plate", lambda: on_surface(False), 1, within=0),
         picture("camera on a sphere", lambda: on_surface(True), 1, within=0),
         picture("rays along an edge", along_edge, 0, within=0, samples=4, quick=True),

@@ -307,13 +307,18 @@ LightVertices trace_light_paths(const Scene &scene, const CameraImportance &impo
     for (uint32_t i = 0; i < lights.size(); ++i) {
         sum += shares[i] * settings.paths;
         const LightBound &b = lights.bound(i);
-        const bool inwards = length(b.center) < b.radius; // the camera stands at the origin
+        // A sphere shines to the side on which the camera is, about the origin; to both where its rays may start on
+        // both.
+        const float distance = length(b.center);
+        const bool both = std::holds_alternative<SphereLight>(lights[i]) &&
+                          std::abs(distance - b.radius) <= scene.camera.farthest_start();
         for (; cursor < sum && !stop.load(std::memory_order_relaxed); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+            const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;
             auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());
             if (!start || is_black(start->power))
                 continue;
-            start->power *= float(1 / (shares[i] * settings.paths));
+            start->power *= float((both ? 2 : 1) / (shares[i] * settings.paths));
             const float target = max_component(start->power) * importance(b.center);
             path.trace(*start, std::holds_alternative<PointLamp>(lights[i]), glass_around(scene, start->ray.origin),
                        target);

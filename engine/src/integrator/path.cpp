@@ -30,7 +30,9 @@ class PathIntegrator final : public Integrator {
                       RayCounter &rays) const override {
         PathState state;
         state.ray = camera.ray;
-        state.glass = around_camera_;
+        // A lens or the near plane may carry the ray across a wall.
+        state.glass = scene_.has_glass && scene_.camera.farthest_start() > 0 ? glass_around(scene_, camera.ray.origin)
+                                                                             : around_camera_;
         const auto *pool = static_cast<const LightPoolBlock *>(block);
         FilmSample result = PathSample(scene_, limits_, options_, pool, sampler, rays).run(state);
         if (pool) {

@@ -5,6 +5,7 @@
 #include "geometry/ray.h"
 #include "math/vec.h"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -31,6 +32,13 @@ struct Camera {
     Vec2f shift;                                          ///< in widths
     float lens_radius = 0, focus_distance = 0;            ///< lengths
     float clip_start = 0, clip_end = kInfinity;           ///< lengths along the axis
+
+    /// No ray starts further from the origin.
+    float farthest_start() const {
+        const float x = (1 + 2 * std::abs(shift.x)) * tan_half_x, y = (aspect + 2 * std::abs(shift.y)) * tan_half_x;
+        const float lean = lens_radius > 0 ? lens_radius / focus_distance : 0;
+        return lens_radius + clip_start * (std::sqrt(1 + x * x + y * y) + lean);
+    }
 
     /// The ray through a point of the film (x right, y down, both 0 to 1) and a point of the lens (unit disk).
     CameraRay generate(Vec2f film, Vec2f lens) const {
