@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What must not change a picture, to the last bit or in the mean."""
 
-from collections.abc import Callable
+import ctypes
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from itertools import permutations
 from typing import Any
@@ -15,6 +17,7 @@ from tests.check.case import Case, Estimate, picture
 from tests.engine.library import Render, Scene
 from tests.engine.worlds import everything
 from tests.render import closed_forms as exact
+from tests.render.build import BLACK, grey
 from tests.render.statistics import Clock
 
 Picture = NDArray[Any]
@@ -87,8 +90,44 @@ def scaled_back(power: int) -> Callable[[Scene, str, int, Clock], Picture]:
     return lambda _, integrator, seed, clock: rendered(bright, integrator, seed, clock) / np.float32(2.0**power)
 
 
+@contextmanager
+def flushed_to_zero() -> Iterator[None]:
+    """Arithmetic of this thread, and of threads that it starts, flushes subnormals to zero, as in Blender's."""
+    library = ctypes.CDLL("libm.so.6")
+    before, flushing = (ctypes.c_uint32 * 8)(), (ctypes.c_uint32 * 8)()  # fenv_t of x86-64: MXCSR is its last word
+    assert library.fegetenv(before) == 0 and library.fegetenv(flushing) == 0
+    flushing[7] |= 0x8040  # FTZ and DAZ
+    assert library.fesetenv(flushing) == 0
+    try:
+        yield
+    finally:
+        library.fesetenv(before)
+
+
+def in_flushing_host(integrator: str, clock: Clock) -> Estimate:
+    scene = Scene(fog.light_through(d.Medium(grey(10), BLACK)))
+
+    def estimate(seed: int) -> float:
+        with Render(scene, integrator=integrator, samples=2, seed=seed, threads=1) as render:
+            with flushed_to_zero():
+                render.run()
+            clock.add(render.poll().cpu_seconds)
+            return float(render.read().mean(dtype=np.float64))
+
+    return estimate
+
+
 def cases() -> list[Case]:
     result = [
+        Case(
+            "absorption of depth 100, in a host that flushes subnormals to zero",
+            np.exp(-100),
+            in_flushing_host,
+            within=0,
+            rounding=0.5 * fog.LEAST / np.exp(-100) + 1e-4,
+            quick=True,
+            most_seeds=SEEDS,
+        ),
         same_bits("the same seed, the same bits", rendered, quick=True),
         same_bits(
             "three threads, the same bits", lambda s, i, seed, clock: rendered(s, i, seed, clock, threads=3), True
