@@ -110,6 +110,7 @@ def cases() -> list[Case]:
                 f"sphere light {what}",
                 partial(lit_by, theta, sine),
                 FLUX * exact.sphere_irradiance(sine, theta),
+                within=0.05 if "sliver" in what else 0.02,
             )
         )
     result.append(
