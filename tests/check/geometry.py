@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from addon.scene import description as d
 from addon.scene.problems import GlimmerError
 from tests.check import fog, furnaces
-from tests.check.case import Case, Estimate, Limit, picture
+from tests.check.case import Case, Estimate, picture
 from tests.check.direct import ALBEDO, FLUX, lit_by
 from tests.check.transform import rotation, similar
 from tests.engine.library import Scene
@@ -330,9 +330,6 @@ def cases() -> list[Case]:
             0,
             within=0,
             samples=4,
-            limit=Limit(
-                "lights share a shadow ray: rounding of their sum stays where all are hidden", np.inf, ("path",)
-            ),
         ),
         Case("NaN, infinities and indices out of range are refused", 1, refused, within=0, rounding=0),
     ]

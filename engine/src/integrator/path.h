@@ -11,8 +11,8 @@ namespace glimmer {
 /// The estimators that can be switched, one by one: each changes noise and time, never the mean.
 struct PathOptions {
     bool split = true;      ///< direct segments of fog: both ends are followed; else one, by free flight
-    bool all_lights = true; ///< every light is sampled at surfaces (one shadow ray beyond the first) and along what
-                            ///< the camera sees directly; else one everywhere
+    bool all_lights = true; ///< every light is sampled at surfaces (with about two shadow rays beyond the first) and
+                            ///< along what the camera sees directly; else one everywhere
     uint32_t surface_branches = 4; ///< paths that go on from the first surface
     bool guided_choice = true;     ///< one light is chosen by what it could bring; else all alike
     bool line_lights = true; ///< light is sampled along direct segments of fog; else at the collision that ends them

@@ -10,6 +10,12 @@
 
 namespace glimmer {
 
+namespace {
+
+constexpr float kShadowRays = 2;
+
+} // namespace
+
 void PathSample::note_first_surface(const Interaction &surface) {
     result_.hit = true;
     result_.normal = surface.shading_normal;
@@ -97,9 +103,9 @@ void PathSample::sample_lights_at(const PathState &state, const Interaction &sur
     };
     std::array<Candidate, kAllLights> candidates;
     uint32_t count = 0;
-    const bool one_ray = !all && every_light(true);
-    for (uint32_t i = 0; i < choices(all || one_ray); ++i) {
-        const LightChoice choice = choose(i, all || one_ray, x);
+    const bool few_rays = !all && every_light(true);
+    for (uint32_t i = 0; i < choices(all || few_rays); ++i) {
+        const LightChoice choice = choose(i, all || few_rays, x);
         const auto light = sample_light(scene_.lights[choice.index], x,
                                         camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
         if (!light || !(dot(light->direction, geometric) > 0))
@@ -121,30 +127,18 @@ void PathSample::sample_lights_at(const PathState &state, const Interaction &sur
     Rgb &sum = state.first == PathState::First::none      ? result_.direct
                : state.first == PathState::First::surface ? result_.indirect
                                                           : result_.fog;
-    const auto hidden = [&](const Candidate &c) {
-        return occluded(surface.origin_towards(c.light.direction), c.light, surface.error);
-    };
-    if (!one_ray) {
-        for (uint32_t i = 0; i < count; ++i)
-            if (!hidden(candidates[i]))
-                sum += state.beta * candidates[i].value;
-        return;
-    }
-    // The sum as if all were seen, corrected by one of them.
-    Rgb total;
     float parts = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        total += candidates[i].value;
+    for (uint32_t i = 0; i < count; ++i)
         parts += candidates[i].part;
+    for (uint32_t i = 0; i < count; ++i) {
+        Candidate &c = candidates[i];
+        // Beyond the first surface about kShadowRays are spent, on each light by its part of the sum.
+        const float tested = few_rays ? std::min(kShadowRays * c.part / parts, 1.0f) : 1.0f;
+        if (tested < 1 && !(sampler_.next_1d() < tested))
+            continue;
+        if (!occluded(surface.origin_towards(c.light.direction), c.light, surface.error))
+            sum += state.beta * c.value * (1 / tested);
     }
-    if (!(parts > 0))
-        return;
-    uint32_t chosen = 0;
-    for (float left = sampler_.next_1d() * parts; chosen + 1 < count; left -= candidates[chosen++].part)
-        if (left < candidates[chosen].part)
-            break;
-    const Candidate &c = candidates[chosen];
-    sum += state.beta * (hidden(c) ? total - c.value * (parts / c.part) : total);
 }
 
 void PathSample::pass_glass(PathState &state, const Interaction &surface, const Material &material) {
