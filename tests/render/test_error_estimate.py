@@ -65,9 +65,9 @@ def specular_furnace() -> d.SceneDescription:
 
 
 def metal(alpha: float, fog: bool) -> d.SceneDescription:
-    """Plates under two moons. Where they are smooth, their mirror images of the moons are met by chance alone. No moon's
-    rim reaches less than a fortieth into a pixel that is black but for it: what 63 of 64 pictures have not met is in
-    none of their intervals."""
+    """Plates under two moons. Where they are smooth, their mirror images of the moons are met by chance alone. No rim
+    of a moon reaches less than a fortieth into a pixel that is black but for it: what 63 of 64 pictures have not met
+    is in none of their intervals."""
     medium = d.Medium(grey(0.002), grey(0.05)) if fog else None
     scene = Builder(camera((0, -4, 2), (0, 2, 0.2), 60), SMALL, SMALL, medium=medium)
     places = np.tile(np.eye(4), (9, 1, 1))
