@@ -26,20 +26,13 @@ def state(world: Scene) -> bytes:
         return render.run().save()
 
 
-def room(emission: float) -> Scene:
-    """White walls and white fog, where a path never ends; or a shining mirror, where it leaves the range of float."""
-    material = d.Mirror(grey(1), emission=grey(emission)) if emission else d.Lambert(grey(1))
-    scene = Builder(camera((0, 0, 0), (0, 1, 0), 60), 1, 1, medium=None if emission else d.Medium(grey(0), grey(1)))
-    return Scene(scene.sphere((0, 0, 0), 1, material).sphere((5, 0, 0), 1, d.Light(grey(1))).done())
-
-
-@pytest.mark.parametrize("emission", [0, 3e38])
-def test_faults_are_not_forgotten(emission: float) -> None:
-    """Samples that were broken off, samples that were not finite."""
-    scene = room(emission)
+def test_faults_are_not_forgotten() -> None:
+    """A shining mirror all around the camera, where a path leaves the range of float."""
+    mirror = d.Mirror(grey(1), emission=grey(3e38))
+    scene = Scene(Builder(camera((0, 0, 0), (0, 1, 0), 60), 1, 1).sphere((0, 0, 0), 1, mirror).done())
     with Render(scene, samples=1, integrator="report") as render:
         before, saved = render.run().report(), render.save()
-    assert before["invalid_samples"]["count"] == int(emission > 0) and len(before["biased_by"]) == 1
+    assert before["invalid_samples"]["count"] == 1 and len(before["biased_by"]) == 1
     with Render(scene, samples=1, integrator="report") as render:
         render.load(saved)
         after = render.run().report()

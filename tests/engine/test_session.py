@@ -187,6 +187,19 @@ def test_cancel_within_100_ms(integrator: str) -> None:
     assert statistics.median(waits) < 0.1, sorted(waits)
 
 
+def test_cancel_of_a_path_that_finds_no_end() -> None:
+    """White walls and white fog: a single sample takes ten million vertices, and its light is outside."""
+    room = Builder(camera((0, 0, 0), (0, 1, 0), 60), 1, 1, medium=d.Medium(grey(0), grey(1)))
+    room.sphere((0, 0, 0), 1, d.Lambert(grey(1))).sphere((5, 0, 0), 1, d.Light(grey(1)))
+    with rendering(Scene(room.done()), samples=ENDLESS, integrator="report", threads=2) as render:
+        time.sleep(0.3)
+        start = time.monotonic()
+        render.cancel()
+        render.wait()
+        assert time.monotonic() - start < 1
+        assert render.poll().samples == 0 and not render.read().any()
+
+
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_what_was_finished_can_be_read_after_cancel(integrator: str) -> None:
     with rendering(wide(), samples=ENDLESS, integrator=integrator, threads=2) as render:

@@ -24,9 +24,14 @@ struct DepthLimits {
     uint32_t scatter = std::numeric_limits<uint32_t>::max(); ///< volume alone
 };
 
+/// What a worker's rays are counted in, and where a path that finds no end learns that nobody waits for it any more.
 struct RayCounter {
     uint64_t rays = 0;
+    const std::atomic<bool> *stop = nullptr; ///< null: never
+    bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
 };
+
+inline constexpr uint64_t kVerticesALook = 4096; ///< between looks at it: well below a millisecond
 
 /// What all pixels of a pass share, and what the pixels of one block of it share.
 struct PassData {

@@ -31,7 +31,7 @@ class LightPath {
     void trace(const Emission &start, bool sharp, const GlassStack &around, float target) {
         target_ = target;
         branches_.push_back({start.ray, start.power, around, sharp});
-        for (uint64_t i = 0; i < kVertexGuard && !branches_.empty(); ++i) {
+        for (uint64_t i = 1; i < kVertexGuard && !branches_.empty() && (i % kVerticesALook || !rays_.stopped()); ++i) {
             const Branch next = branches_.back();
             branches_.pop_back();
             segment(next);

@@ -45,7 +45,7 @@ class PathSample {
         stack_.clear();
         push(camera);
         uint64_t vertices = 0;
-        while (!stack_.empty() && ++vertices < kVertexGuard) {
+        while (!stack_.empty() && ++vertices < kVertexGuard && (vertices % kVerticesALook || !rays_.stopped())) {
             const PathState next = stack_.back();
             stack_.pop_back();
             follow(next);

@@ -183,7 +183,7 @@ void Session::take_pass(size_t index, std::unique_lock<std::mutex> &lock) {
     ++busy_;
     const uint64_t sample = batch_.first + index;
     lock.unlock();
-    RayCounter rays;
+    RayCounter rays{0, &stop_};
     std::unique_ptr<const PassData> pass;
     std::exception_ptr failure;
     const uint64_t cpu_start = thread_cpu_nanoseconds();
@@ -218,7 +218,7 @@ void Session::take_tile(size_t tile, std::unique_lock<std::mutex> &lock) {
         settings_.seconds > 0 && first > 0 ? running_since_ + settings_.seconds - earlier_seconds_ : HUGE_VAL;
     ++busy_;
     lock.unlock();
-    RayCounter rays;
+    RayCounter rays{0, &stop_};
     bool whole = first >= end; // a resumed batch may have been ahead here
     std::exception_ptr failure;
     const double start = now();
@@ -315,6 +315,8 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
                         const CameraRay camera = sample_camera_ray(*scene_, x, y, sampler.stratified_2d(kSetPixel),
                                                                    sampler.stratified_2d(kSetLens));
                         const FilmSample value = integrator_->sample(camera, sampler, shared.get(), rays);
+                        if (value.unfinished && stop_.load(std::memory_order_relaxed))
+                            return false;
                         unfinished += value.unfinished ? 1 : 0;
                         if (is_finite(value.radiance()))
                             tile.add(x - settings.crop_x - area.x, y - settings.crop_y - area.y, s, value);
