@@ -335,7 +335,9 @@ def test_black_picture_has_no_relative_error(tmp_path: Path) -> None:
 def test_summary_and_quiet(tmp_path: Path) -> None:
     path = write_scene(tmp_path, hazy_moon())
     loud = run_glimmer(path, "-o", tmp_path / "out.exr", "--spp", 4)
-    assert re.search(r"out\.exr: 4 spp in \d+\.\d\d s, relMSE [0-9.e-]+ \([0-9.e-]+ to [0-9.e-]+\)(, not .*)?\n$", loud.stderr)
+    assert re.search(
+        r"out\.exr: 4 spp in \d+\.\d\d s, relMSE [0-9.e-]+ \([0-9.e-]+ to [0-9.e-]+\)(, not .*)?\n$", loud.stderr
+    )
     assert loud.stdout == ""
     quiet = run_glimmer(path, "-o", tmp_path / "out.exr", "--spp", 4, "--quiet")
     assert quiet.stderr == "" and quiet.stdout == ""
