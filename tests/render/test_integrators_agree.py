@@ -100,12 +100,11 @@ def glints_through_a_lens() -> Builder:
 
 
 def light_by_way_of_metal() -> Builder:
-    """Fog that a screen hides from the light: nearly all that is seen was thrown there by smooth metal."""
-    scene = Builder(camera((2.5, -3, 2), (2.5, 4, 2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
-    scene.mesh(floor(0, 6, (0, 4)), d.Conductor(0.08, f0=WHITE)).mesh(
-        quad((0.7, 4, 2.5), (0, 4, 0), (0, 0, 2)), d.Lambert(grey(0))
-    )
-    return scene.sphere((-0.5, 4, 1.2), 0.4, d.Light(grey(10)))
+    """Fog that a screen hides from the light: half of what is seen was thrown there by smooth metal alone."""
+    scene = Builder(camera((3, -3, 2.2), (3, 4, 2.2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
+    scene.mesh(floor(0, 8, (0, 4)), d.Conductor(0.03, f0=WHITE))
+    scene.mesh(quad((0.7, 4, 3), (0, 6, 0), (0, 0, 2.4)), d.Lambert(grey(0)))
+    return scene.sphere((-1, 4, 1.2), 0.9, d.Light(grey(10)))
 
 
 SCENES: dict[str, Callable[[], Builder]] = {
@@ -138,6 +137,6 @@ def test_both_integrators(name: str) -> None:
     check_same(
         lambda seed: blocks(path(seed), 8),
         lambda seed: blocks(report(seed), 8),
-        within=0.08,
+        within=0.065 if name == "light by way of metal" else 0.08,
         what=name,
     )
