@@ -32,6 +32,8 @@ struct RayCounter {
 };
 
 inline constexpr uint64_t kVerticesALook = 4096; ///< between looks at it: well below a millisecond
+/// Of one camera sample, or of one light path with its branches; reached only where light is shut in for good.
+inline constexpr uint64_t kVertexGuard = 1ull << 32;
 
 /// What all pixels of a pass share, and what the pixels of one block of it share.
 struct PassData {

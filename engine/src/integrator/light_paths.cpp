@@ -14,9 +14,8 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kGuidedStart = 0.85f;         // of the paths start by importance, the rest at any light
-constexpr uint64_t kVertexGuard = 1ull << 32; // of one path with its branches
-constexpr uint32_t kBeams = 32;               // of what no vertex holds, at a surface
+constexpr float kGuidedStart = 0.85f; // of the paths start by importance, the rest at any light
+constexpr uint32_t kBeams = 32;       // of what no vertex holds, at a surface
 constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 
 /// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way

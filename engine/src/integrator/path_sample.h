@@ -17,8 +17,6 @@ inline constexpr uint32_t kAllLights = 16; // up to here every light is sampled 
 inline constexpr uint32_t kManyLights = 4; // beyond, so many choices
 inline constexpr size_t kBranches =
     24; // unfinished branches of one camera sample; beyond, segments are no longer split
-inline constexpr uint64_t kVertexGuard = 1ull
-                                         << 32; // of one camera sample; reached only where light is shut in for good
 
 /// Stratified sample sets of the camera's own segment; everything later draws independent numbers. The film has 0
 /// and 1.
