@@ -43,12 +43,7 @@ def view() -> Any:
 
 
 def build() -> None:
-    scene = inside.empty_scene((0.3, 0.3, 0.3))
-    inside.ball("Ball")
-    inside.plane()
-    inside.lamp("POINT", (2.0, -2.0, 3.0), energy=500.0)
-    scene.render.resolution_x, scene.render.resolution_y = 800, 500
-    scene.glimmer.samples = 1_000_000
+    inside.endless_scene(800, 500)
     bpy.context.preferences.view.render_display_type = "NONE"
     bpy.context.preferences.view.show_splash = False
 

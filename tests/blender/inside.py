@@ -105,6 +105,16 @@ def lamp(kind: str, location: tuple[float, float, float], **settings: Any) -> An
     return item
 
 
+def endless_scene(width: int, height: int) -> None:
+    """A lit ball on a floor, with more samples than anybody waits for."""
+    scene = empty_scene((0.3, 0.3, 0.3))
+    ball("Ball")
+    plane()
+    lamp("POINT", (2.0, -2.0, 3.0), energy=500.0)
+    scene.render.resolution_x, scene.render.resolution_y = width, height
+    scene.glimmer.samples = 1_000_000
+
+
 def use_format(name: str) -> None:
     settings = bpy.context.scene.render.image_settings
     if hasattr(settings, "media_type"):  # 5.0

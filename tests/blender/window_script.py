@@ -49,12 +49,7 @@ def watch() -> float | None:
 
 
 def begin() -> None:
-    scene = inside.empty_scene((0.3, 0.3, 0.3))
-    inside.ball("Ball")
-    inside.plane()
-    inside.lamp("POINT", (2.0, -2.0, 3.0), energy=500.0)
-    scene.render.resolution_x, scene.render.resolution_y = 640, 400
-    scene.glimmer.samples = 1_000_000
+    inside.endless_scene(640, 400)
     window = bpy.context.window_manager.windows[0]
     with bpy.context.temp_override(window=window, screen=window.screen, area=window.screen.areas[0]):
         bpy.ops.render.render("INVOKE_DEFAULT")

@@ -13,7 +13,6 @@ namespace glimmer {
 
 struct CameraRay {
     Ray ray;                   ///< t_max: the far clipping plane along this ray
-    float inv_cosine;          ///< 1 / cosine of the angle to the axis
     uint32_t pixel_x, pixel_y; ///< of the whole picture
 };
 
@@ -53,7 +52,7 @@ struct Camera {
         const float inv_cosine = length(along);
         const Vec3f direction = along / inv_cosine;
         origin += direction * (clip_start * inv_cosine);
-        return {{origin, direction, (clip_end - clip_start) * inv_cosine}, inv_cosine, 0, 0};
+        return {{origin, direction, (clip_end - clip_start) * inv_cosine}, 0, 0};
     }
 
     /// The inverse: where a point is seen from a point of the lens (unit disk); nothing behind the clipping planes.
