@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add > Light > Glimmer Moon and Glimmer Five Moons."""
+"""Add > Light > Glimmer Moon, and Add > Glimmer Five Moons (under Light too)."""
 
 from typing import Any
 
 import bpy
 
 from .camera import eye_of, is_seen, upright
-from .framing import frame
+from .framing import frame, look_pitch, stand
+from .ground import field_points, floor_below
 from .moon import FIVE_MOONS, Moon, create
 
 
@@ -49,26 +50,31 @@ class GLIMMER_OT_add_five_moons(bpy.types.Operator):
         return context.mode == "OBJECT"
 
     aim_camera: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Turn Camera",
-        description="Turn the scene's camera upright and up to the moons where it does not see all of them",
+        name="Place Camera",
+        description=(
+            "Where the scene's camera does not see all of the moons, turn it to them, upright, and take it down to "
+            "look over the hexagon field, or over what is under it, so that the picture holds both"
+        ),
         default=True,
     )
 
     def execute(self, context: Any) -> set[str]:
-        camera = context.scene.camera
+        scene, camera = context.scene, context.scene.camera
         if camera is None or camera.type != "CAMERA" or camera.data.type != "PERSP":
             _select(context, [create(moon, context.collection) for moon in FIVE_MOONS])
             return {"FINISHED"}
-        # Before anything is created: that waits for the next evaluation.
-        moons, pitch = frame(FIVE_MOONS, eye_of(context.scene, camera))
-        unseen = [moon.name for moon in moons if not is_seen(context.scene, camera, moon.location)]
-        _select(context, [create(moon, context.collection) for moon in moons])
-        if unseen and self.aim_camera:
+        # Before anything is created: what stands where is known after an evaluation alone.
+        context.view_layer.update()
+        eye = eye_of(scene, camera)
+        moons = frame(FIVE_MOONS, eye)
+        if self.aim_camera and not all(is_seen(scene, camera, moon.location) for moon in moons):
             if camera.constraints or (camera.animation_data is not None and camera.animation_data.action is not None):
                 self.report({"WARNING"}, f"{camera.name} is animated or constrained and was not turned to the moons")
             else:
-                heading = eye_of(context.scene, camera).heading
-                camera.matrix_world = upright(tuple(camera.matrix_world.translation), heading, pitch)
+                eye = stand(eye, field_points(context.view_layer), floor_below(context, eye.location))
+                moons = frame(FIVE_MOONS, eye)
+                camera.matrix_world = upright(eye.location, eye.heading, look_pitch(eye))
+        _select(context, [create(moon, context.collection) for moon in moons])
         return {"FINISHED"}
 
 
@@ -83,19 +89,26 @@ def _select(context: Any, objects: list[Any]) -> None:
 _CLASSES = (GLIMMER_OT_add_moon, GLIMMER_OT_add_five_moons)
 
 
-def _draw_menu(self: Any, _context: Any) -> None:
+def _draw_light_menu(self: Any, _context: Any) -> None:
     self.layout.separator()
     self.layout.operator(GLIMMER_OT_add_moon.bl_idname, icon="SPHERE")
+    self.layout.operator(GLIMMER_OT_add_five_moons.bl_idname, icon="SPHERE")
+
+
+def _draw_add_menu(self: Any, _context: Any) -> None:
+    self.layout.separator()
     self.layout.operator(GLIMMER_OT_add_five_moons.bl_idname, icon="SPHERE")
 
 
 def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.VIEW3D_MT_light_add.append(_draw_menu)
+    bpy.types.VIEW3D_MT_light_add.append(_draw_light_menu)
+    bpy.types.VIEW3D_MT_add.append(_draw_add_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_light_add.remove(_draw_menu)
+    bpy.types.VIEW3D_MT_add.remove(_draw_add_menu)
+    bpy.types.VIEW3D_MT_light_add.remove(_draw_light_menu)
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

@@ -7,14 +7,12 @@ Every function of CHECKS starts from an empty file. OUT.json holds "" or a trace
 are registered, so that nothing here depends on the engine's library.
 """
 
-import importlib
 import json
 import math
 import sys
 import tempfile
 import time
 import traceback
-import types
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -22,23 +20,20 @@ from typing import Any
 import bpy
 import numpy as np
 
-ADDON = Path(__file__).resolve().parents[2] / "addon"
+sys.path.insert(0, str(Path(__file__).parent))
 
+from addon_parts import load
+from moon_checks import (
+    a_new_file_shows_field_and_moons,
+    five_moons_are_in_the_picture,
+    menus_offer_what_the_readme_names,
+)
 
-def _load(name: str) -> Any:
-    """A module of the add-on, without the add-on's own registration."""
-    if "glimmer" not in sys.modules:
-        package = types.ModuleType("glimmer")
-        package.__path__ = [str(ADDON)]
-        sys.modules["glimmer"] = package
-    return importlib.import_module(f"glimmer.{name}")
-
-
-FieldParameters = _load("hexfield.parameters").FieldParameters
-layout_of = _load("hexfield.layout").lay_out
-field = _load("hexfield.field")
-export_instances = _load("hexfield.export").export_instances
-node_group = _load("hexfield.node_group")
+FieldParameters = load("hexfield.parameters").FieldParameters
+layout_of = load("hexfield.layout").lay_out
+field = load("hexfield.field")
+export_instances = load("hexfield.export").export_instances
+node_group = load("hexfield.node_group")
 
 
 def new_field(**changes: Any) -> Any:
@@ -152,7 +147,7 @@ def shapes(obj: Any) -> list[Any]:
 
 def every_parameter_is_live() -> None:
     """Changing a property changes what the field shows: points, plates or both, as the table says."""
-    parameters = _load("hexfield.parameters")
+    parameters = load("hexfield.parameters")
     extent_of = {"radius": "RADIUS"}
     for name, control in parameters.controls():
         obj = new_field(mutation_shape=0.1, mutation_bevel=0.1, extent=extent_of.get(name, "RINGS"))
@@ -378,7 +373,7 @@ def cycles_renders_the_plates() -> None:
 
 
 def operators_add_field_and_moons() -> None:
-    moon = _load("moons.moon")
+    moon = load("moons.moon")
     scene = bpy.context.scene
     scene.cursor.location = (1, 2, 3)
     assert bpy.ops.glimmer.add_hexagon_field(rings=2, seed=9, thickness=0.3) == {"FINISHED"}
@@ -400,7 +395,6 @@ def operators_add_field_and_moons() -> None:
     five = [o for o in bpy.context.selected_objects if moon.emission_node(o)]
     assert len(five) == 5
     assert len({o.data.name for o in [*five, red]}) == 1, "moons share their mesh"
-    five_moons_are_in_the_picture()
     distance = [vertex.co.length for vertex in red.data.vertices]
     assert max(distance) - min(distance) < 1e-6
     assert all(polygon.normal.dot(polygon.center) > 0 and polygon.use_smooth for polygon in red.data.polygons)
@@ -412,47 +406,8 @@ def operators_add_field_and_moons() -> None:
         raise AssertionError("a field of billions of plates was accepted")
 
 
-def five_moons_are_in_the_picture() -> None:
-    """In the camera of a new file, in a portrait one, in one that looks straight down, and in one that sees them."""
-    camera_module = _load("moons.camera")
-    scene = bpy.context.scene
-    camera = scene.camera or bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    if scene.camera is None:
-        scene.collection.objects.link(camera)
-        scene.camera = camera
-    default = (7.3589, -6.9258, 4.9583), (1.1093, 0.0, 0.8149)
-    size = scene.render.resolution_x, scene.render.resolution_y
-    for (place, turn), lens, portrait in (
-        (default, 50.0, False),
-        (default, 85.0, True),
-        (((3.0, 2.0, 9.0), (0.0, 0.0, 1.0)), 50.0, False),
-    ):
-        camera.location, camera.rotation_euler, camera.data.lens = place, turn, lens
-        scene.render.resolution_x, scene.render.resolution_y = size[::-1] if portrait else size
-        bpy.context.view_layer.update()
-        heading = camera_module.eye_of(scene, camera).heading
-        assert bpy.ops.glimmer.add_five_moons() == {"FINISHED"}
-        bpy.context.view_layer.update()
-        for moon in bpy.context.selected_objects:
-            assert camera_module.is_seen(scene, camera, tuple(moon.location)), (moon.name, lens)
-            assert moon.location.z - moon.scale.z > place[2] - 1.0, "it stands under the horizon"
-        assert max(abs(a - b) for a, b in zip(camera.location, place, strict=True)) < 1e-5
-        assert abs(camera_module.eye_of(scene, camera).heading - heading) < 1e-5
-    turned = camera.matrix_world.copy()
-    assert bpy.ops.glimmer.add_five_moons() == {"FINISHED"}  # it sees them already
-    bpy.context.view_layer.update()
-    assert camera.matrix_world == turned
-    camera.rotation_euler = (1.1093, 0.0, 0.8149)
-    bpy.context.view_layer.update()
-    before = camera.matrix_world.copy()
-    assert bpy.ops.glimmer.add_five_moons(aim_camera=False) == {"FINISHED"}
-    assert camera.matrix_world == before
-    scene.render.resolution_x, scene.render.resolution_y = size
-    bpy.ops.object.select_all(action="DESELECT")
-
-
 def registration_goes_both_ways() -> None:
-    hexfield, moons = _load("hexfield"), _load("moons")
+    hexfield, moons = load("hexfield"), load("moons")
     handlers = bpy.app.handlers
     before = len(handlers.frame_change_post), len(handlers.save_pre)
     moons.unregister()
@@ -482,13 +437,16 @@ CHECKS: tuple[Callable[[], None], ...] = (
     animations_are_rendered,
     cycles_renders_the_plates,
     operators_add_field_and_moons,
+    five_moons_are_in_the_picture,
+    a_new_file_shows_field_and_moons,
+    menus_offer_what_the_readme_names,
     registration_goes_both_ways,
 )
 
 
 def main(path: str) -> None:
-    _load("hexfield").register()
-    _load("moons").register()
+    load("hexfield").register()
+    load("moons").register()
     results = {}
     for check in CHECKS:
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -498,8 +456,8 @@ def main(path: str) -> None:
         except Exception:  # noqa: BLE001 (whatever a check raises is its result)
             results[check.__name__] = traceback.format_exc()
     Path(path).write_text(json.dumps({"version": bpy.app.version_string, "results": results}))
-    _load("moons").unregister()
-    _load("hexfield").unregister()
+    load("moons").unregister()
+    load("hexfield").unregister()
 
 
 if __name__ == "__main__":
