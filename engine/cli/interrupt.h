@@ -4,7 +4,8 @@
 
 namespace glimmer {
 
-/// From here on the first SIGINT or SIGTERM only sets a flag; a second one ends the process as usual.
+/// From here on the first SIGINT or SIGTERM only sets a flag, and so does what follows within a second of it; a later
+/// one ends the process as usual.
 void catch_interrupts();
 bool interrupted();
 
