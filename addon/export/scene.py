@@ -26,7 +26,8 @@ from ..scene.problems import GlimmerError, Notice, Notices, place
 from .instance import BulkReader, Placed, placed_objects
 from .light import export_lamp
 from .material import export_material
-from .mesh import export_mesh, fit_sphere, read
+from .mesh import export_mesh
+from .sphere import NotASphereError, read_sphere
 from .world import export_world, warn_of_black_sky
 
 if TYPE_CHECKING:
@@ -130,8 +131,7 @@ class _Collector:
         if not np.isfinite(matrices).all():
             raise GlimmerError(f"Object '{item.name}' stands at a place that is not finite")
         settings = getattr(item.original, "glimmer", None)
-        if settings is not None and settings.is_sphere:
-            self._add_spheres(item, matrices)
+        if settings is not None and settings.is_sphere and self._add_spheres(item, matrices):
             return
         slots = [slot.material for slot in item.material_slots] or [None]
         mesh = self._mesh(item, len(slots))
@@ -150,31 +150,29 @@ class _Collector:
             )
         )
 
-    def _add_spheres(self, item: bpy.types.Object, matrices: Floats) -> None:
-        mesh = item.to_mesh()
+    def _add_spheres(self, item: bpy.types.Object, matrices: Floats) -> bool:
+        """False, and a notice, for what is marked as a sphere and is none."""
         try:
-            points = np.zeros((0, 3)) if mesh is None else read(mesh.vertices, "co", np.float32, 3)
-        finally:
-            item.to_mesh_clear()
-        if len(points) == 0:
-            return
-        center, radius = fit_sphere(points, item.name)
-        scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
-        if (np.ptp(scales, axis=1) > 1e-3 * scales.max(axis=1)).any():
-            raise GlimmerError(
-                f"Object '{item.name}' is marked as an analytic sphere and scaled unevenly: scale it alike along x, y"
-                " and z, or clear Object properties > Glimmer > Analytic Sphere"
+            sphere = read_sphere(item)
+            if sphere is None:
+                return True
+            centers, radii = sphere.placed(matrices)
+        except NotASphereError as why:
+            self._notices.add(
+                place(item.name), f"is marked as an analytic sphere, but {why}; rendered as the mesh that it is"
             )
+            return False
         material = item.material_slots[0].material if item.material_slots else None
         self.spheres.append(
             Spheres(
                 name=item.name,
-                centers=(matrices[:, :3, :3] * center).sum(axis=2) + matrices[:, :3, 3],
-                radii=radius * scales.mean(axis=1),
+                centers=centers,
+                radii=radii,
                 material=self._material(material, item.name),
                 object_index=item.pass_index,
             )
         )
+        return True
 
     def _mesh(self, item: bpy.types.Object, slot_count: int) -> Mesh | None:
         key = (item.data.as_pointer(), slot_count)

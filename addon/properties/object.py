@@ -10,6 +10,7 @@ class GlimmerObjectSettings(bpy.types.PropertyGroup):
     is_sphere: bpy.props.BoolProperty(
         name="Analytic Sphere",
         description="Render this mesh sphere as an exact sphere: smooth at any distance, and quick to light with."
-        " Its vertices must lie on a sphere, and its scale must be uniform",
+        " Its vertices must lie on a sphere that its faces follow, and its scale must be uniform; else it is rendered"
+        " as a mesh, and the report says so",
         default=False,
     )

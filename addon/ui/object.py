@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 import bpy
+import numpy as np
 
+from ..export.sphere import NotASphereError, read_sphere
 from .panel import GlimmerPanel
+
+MOST_VERTICES = 100_000  # that a panel reads each time it is drawn
 
 
 class GLIMMER_PT_object(GlimmerPanel, bpy.types.Panel):
@@ -16,6 +20,24 @@ class GLIMMER_PT_object(GlimmerPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.use_property_split = True
         self.layout.prop(context.object.glimmer, "is_sphere")
+        why = why_no_sphere(context) if context.object.glimmer.is_sphere else ""
+        if why:
+            self.layout.label(text=why, icon="ERROR")
+            self.layout.label(text="Rendered as the mesh that it is", icon="BLANK1")
+
+
+def why_no_sphere(context: bpy.types.Context) -> str:
+    """As an export would find it; empty where it is one, or too large to look at."""
+    item = context.object.evaluated_get(context.evaluated_depsgraph_get())
+    if len(item.data.vertices) > MOST_VERTICES:
+        return ""
+    try:
+        sphere = read_sphere(item)
+        if sphere is not None:
+            sphere.placed(np.array(item.matrix_world, np.float64)[np.newaxis])
+    except NotASphereError as why:
+        return f"It {str(why).partition('; ')[0]}"
+    return ""
 
 
 def register() -> None:

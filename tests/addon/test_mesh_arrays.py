@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 import numpy as np
-import pytest
-from numpy.typing import NDArray
 
-from addon.export.mesh import fit_sphere, smooth_normals, split_by_normal
-from addon.scene.problems import GlimmerError
+from addon.export.mesh import smooth_normals, split_by_normal
 
 
 def test_vertices_are_split_only_where_normals_differ() -> None:
@@ -25,39 +22,6 @@ def test_normals_within_blenders_precision_are_one() -> None:
     normals = np.array([[0.0, 0.0, 1.0], [1e-6, 0.0, 1.0]], np.float32)
     source, _ = split_by_normal(np.array([7, 7]), normals)
     assert len(source) == 1
-
-
-def directions(count: int) -> NDArray[np.float64]:
-    points = np.random.default_rng(5).normal(size=(count, 3))
-    return points / np.linalg.norm(points, axis=1, keepdims=True)
-
-
-def test_a_sphere_is_found_wherever_its_origin_is() -> None:
-    center, radius = fit_sphere(np.array([3.0, -2.0, 100.0]) + 0.25 * directions(40), "Moon")
-    np.testing.assert_allclose(center, [3.0, -2.0, 100.0], atol=1e-9)
-    assert radius == pytest.approx(0.25, rel=1e-9)
-
-
-def test_half_a_sphere_is_one_too() -> None:
-    points = directions(60)
-    points[:, 2] = np.abs(points[:, 2])
-    center, radius = fit_sphere(points, "Dome")
-    np.testing.assert_allclose(center, 0.0, atol=1e-9)
-    assert radius == pytest.approx(1.0)
-
-
-@pytest.mark.parametrize(
-    "points",
-    [
-        directions(50) * [1.0, 1.0, 1.5],
-        np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]),
-        np.zeros((4, 3)),
-    ],
-    ids=["ellipsoid", "plane", "one point"],
-)
-def test_what_is_no_sphere_is_named(points: NDArray[np.float64]) -> None:
-    with pytest.raises(GlimmerError, match="'Egg' is marked as an analytic sphere, but its mesh is none"):
-        fit_sphere(points, "Egg")
 
 
 def test_smooth_normals_are_weighed_by_the_angle() -> None:

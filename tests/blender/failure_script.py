@@ -30,16 +30,6 @@ def unreadable_mesh(scene: Any) -> None:
     bpy.data.objects["Ball"].data.vertices[3].co.x = float("nan")
 
 
-def uneven_sphere(scene: Any) -> None:
-    ball = bpy.data.objects["Ball"]
-    ball.glimmer.is_sphere = True
-    ball.scale.x = 2.0
-
-
-def no_sphere(scene: Any) -> None:
-    inside.plane("Square").glimmer.is_sphere = True
-
-
 def missing_library(scene: Any) -> None:
     os.environ["GLIMMER_LIBRARY"] = str(OUT / "nowhere.so")
     library.load.cache_clear()
@@ -58,8 +48,6 @@ def defect(scene: Any) -> None:
 BREAKERS: tuple[Callable[[Any], None], ...] = (
     orthographic,
     unreadable_mesh,
-    uneven_sphere,
-    no_sphere,
     missing_library,
     defect,
 )

@@ -268,6 +268,35 @@ def fog_and_sun() -> list[str]:
     return lines
 
 
+def marked_as_spheres() -> dict[str, Any]:
+    """A cube, an egg and a ball: what a render says of them, what the panel does, and their pictures."""
+    from glimmer import reports
+    from glimmer.ui.object import why_no_sphere
+
+    inside.empty_scene((0.5, 0.5, 0.5))
+    bpy.ops.mesh.primitive_cube_add(size=1.5, location=(0.0, 0.0, 1.0))
+    items = {"Cube": bpy.context.object, "Egg": inside.ball("Egg", None, (2.0, 0.0, 1.0), 16)}
+    items["Egg"].scale.z = 1.5
+    items["Ball"] = inside.ball("Ball", None, (-2.0, 0.0, 1.0), 16)
+    facts: dict[str, Any] = {"panel": {}}
+    inside.use_format("OPEN_EXR")
+
+    def picture(name: str) -> None:
+        inside.render(Path(inside.words()[0]).with_name(name))
+        facts[f"{name}_says"] = reports.last()["export"]["notices"]
+
+    picture("unmarked.exr")
+    for name, item in items.items():
+        item.glimmer.is_sphere = True
+        bpy.context.view_layer.objects.active = item
+        bpy.context.view_layer.update()
+        facts["panel"][name] = why_no_sphere(bpy.context)
+    picture("marked.exr")
+    items["Ball"].glimmer.is_sphere = False
+    picture("without_ball.exr")
+    return facts
+
+
 def registration() -> dict[str, Any]:
     def compatible() -> set[str]:
         return {p.__name__ for p in bpy.types.Panel.__subclasses__() if "GLIMMER" in getattr(p, "COMPAT_ENGINES", ())}
@@ -282,4 +311,5 @@ def registration() -> dict[str, Any]:
 
 
 result = {"nodes": translate(), "fog_and_sun": fog_and_sun(), "registration": registration()}
+result["marked_as_spheres"] = marked_as_spheres()
 Path(inside.words()[0]).write_text(json.dumps(result))

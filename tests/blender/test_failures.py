@@ -13,8 +13,6 @@ SCRIPT = Path(__file__).with_name("failure_script.py")
 WORDS = {
     "orthographic": "Camera 'Camera' is orthographic, which is not supported yet",
     "unreadable_mesh": "cannot be read: vertex 3 has a coordinate that is not a finite number",
-    "uneven_sphere": "Object 'Ball' is marked as an analytic sphere and scaled unevenly",
-    "no_sphere": "Object 'Square' is marked as an analytic sphere, but its mesh is none",
     "missing_library": "The engine's library is missing; looked for",
     "defect": "a defect of the add-on, please report it: ZeroDivisionError: thought of by nobody",
 }

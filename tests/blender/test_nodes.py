@@ -5,6 +5,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import OpenImageIO
 import pytest
 from hosts import Host
 
@@ -19,6 +21,7 @@ def facts(host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any
     path = tmp_path_factory.mktemp("nodes") / "facts.json"
     host.run_script(Path(__file__).with_name("nodes_script.py"), str(path))
     result: dict[str, Any] = json.loads(path.read_text())
+    result["folder"] = path.parent
     return result
 
 
@@ -159,6 +162,30 @@ def test_light_behind_endless_fog_is_warned_of_once(facts: dict[str, Any]) -> No
     assert line.startswith("world 'World")
     assert "its background and sun 'SUN' are black behind its endless fog" in line
     assert "use point, spot or area lamps" in line and "remove the world's Volume shader" in line
+
+
+def test_what_is_marked_as_a_sphere_and_is_none_is_told_and_rendered_as_it_is(facts: dict[str, Any]) -> None:
+    found = facts["marked_as_spheres"]
+    as_mesh = "; rendered as the mesh that it is"
+    marked = [
+        f"object 'Cube': is marked as an analytic sphere, but is no sphere, though its vertices lie on one: its faces"
+        f" are too coarse{as_mesh}",
+        f"object 'Egg': is marked as an analytic sphere, but is scaled unevenly; scale it alike along x, y and z"
+        f"{as_mesh}",
+    ]
+    assert found["unmarked.exr_says"] == []
+    assert found["marked.exr_says"] == found["without_ball.exr_says"] == marked
+    assert found["panel"] == {
+        "Cube": "It is no sphere, though its vertices lie on one: its faces are too coarse",
+        "Egg": "It is scaled unevenly",
+        "Ball": "",
+    }
+    unmarked, marked_picture, without_ball = (
+        np.asarray(OpenImageIO.ImageBuf(str(facts["folder"] / f"{name}.exr")).get_pixels(OpenImageIO.FLOAT))
+        for name in ("unmarked", "marked", "without_ball")
+    )
+    np.testing.assert_array_equal(without_ball, unmarked)
+    assert not np.array_equal(marked_picture, unmarked)  # a ball of 16 facets around is not round
 
 
 def test_unregister_takes_back_what_register_did(facts: dict[str, Any]) -> None:
