@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -37,6 +37,11 @@ def border_window(size: tuple[int, int], border: tuple[float, float, float, floa
     return x0, height - y1, x1, height - y0
 
 
+def filter_settings(settings: Any) -> dict[str, Any]:
+    """Film's filter and filter_width. Cycles counts a Blackman-Harris filter's width from its middle, Film all of it."""
+    return {"filter": settings.filter.lower(), "filter_width": 2.0 * settings.filter_width}
+
+
 def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
     render = scene.render
     if render.pixel_aspect_x != render.pixel_aspect_y:
@@ -57,8 +62,7 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
         crop = border_window(size, edges)
         if crop[2] <= crop[0] or crop[3] <= crop[1]:
             raise GlimmerError("The render border holds no pixel: make it larger, or clear it with Ctrl Alt B")
-    settings = scene.glimmer
-    return Film(*size, crop=crop, filter=settings.filter.lower(), filter_width=settings.filter_width)
+    return Film(*size, crop=crop, **filter_settings(scene.glimmer))
 
 
 def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:

@@ -107,11 +107,15 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
     filter: bpy.props.EnumProperty(
         name="Pixel Filter",
         items=(
-            ("BLACKMAN_HARRIS", "Blackman-Harris", "Soft edges. Half as wide as Cycles at the same number"),
+            ("BLACKMAN_HARRIS", "Blackman-Harris", "Soft edges, as Cycles has by default"),
             ("BOX", "Box", "Exactly the pixel's square"),
         ),
         default="BLACKMAN_HARRIS",
     )
     filter_width: bpy.props.FloatProperty(
-        name="Filter Width", description="Full width in pixels", default=1.5, min=0.01, max=10.0
+        name="Filter Width",
+        description="Blackman-Harris alone: how far from its middle a pixel gathers light, in pixels; as in Cycles",
+        default=1.5,
+        min=0.01,
+        max=10.0,
     )

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..export.camera import export_view
-from ..export.film import export_view_settings
+from ..export.film import export_view_settings, filter_settings
 from ..export.instance import BulkReader
 from ..export.scene import View, export_scene
 from ..film.display import status
@@ -121,7 +121,7 @@ class RenderedView:
         size = (max(region.width, 1), max(region.height, 1))
         camera = space.camera if space.use_local_camera else scene.camera
         return View(
-            Film(*size, filter=scene.glimmer.filter.lower(), filter_width=scene.glimmer.filter_width),
+            Film(*size, **filter_settings(scene.glimmer)),
             export_view(
                 space, context.region_data, None if camera is None else camera.evaluated_get(depsgraph), size, notices
             ),

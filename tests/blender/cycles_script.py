@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders small scenes by Cycles and Glimmer in turn, in one process: cycles_script.py FOLDER.
 
-Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3).
+Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3); and edges.npz, of an edge: WIDTH.ENGINE by
+filter width, each (height, width, 3).
 """
 
+import math
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -144,6 +146,15 @@ def fog(kind: str, **inputs: Any) -> None:
     tree.links.new(volume.outputs[0], tree.nodes["World Output"].inputs["Volume"])
 
 
+def edge() -> None:
+    """Light of radiance 1 left of 0.3 pixels right of the middle, dark beyond; a pixel is a unit wide."""
+    scene = inside.empty_scene()
+    light = inside.plane("Light", 100.0, inside.material("ShaderNodeEmission", Strength=1.0))
+    light.location.x = 0.3 - 100.0
+    scene.camera.location, scene.camera.rotation_euler = (0.0, 0.0, 20.0), (0.0, 0.0, 0.0)
+    scene.camera.data.sensor_fit, scene.camera.data.angle = "HORIZONTAL", 2.0 * math.atan(WIDTH / 40.0)
+
+
 def shader(kind: str, distribution: str | None = None, **inputs: Any) -> Callable[[], None]:
     return lambda: under_lamps(inside.material(kind, distribution, **inputs))
 
@@ -223,3 +234,17 @@ for name, build in SCENES.items():
     for engine in ("CYCLES", "GLIMMER"):
         pictures[f"{name}.{engine}"] = np.array([picture(engine, seed) for seed in range(SEEDS)])
 np.savez(OUT / "pictures.npz", **pictures)
+
+edges: dict[str, Any] = {}
+for filter_width in (1.5, 2.5):
+    edge()
+    current = bpy.context.scene
+    current.render.resolution_x, current.render.resolution_y = WIDTH, HEIGHT
+    set_up_cycles(current)
+    current.cycles.samples = current.glimmer.samples = 1024
+    current.glimmer.filter = "BLACKMAN_HARRIS"
+    current.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
+    current.cycles.filter_width = current.glimmer.filter_width = filter_width
+    for engine in ("CYCLES", "GLIMMER"):
+        edges[f"{filter_width}.{engine}"] = picture(engine, 0)
+np.savez(OUT / "edges.npz", **edges)
