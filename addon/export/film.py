@@ -38,7 +38,7 @@ def border_window(size: tuple[int, int], border: tuple[float, float, float, floa
 
 
 def filter_settings(settings: Any) -> dict[str, Any]:
-    """Film's filter and filter_width. Cycles counts a Blackman-Harris filter's width from its middle, Film all of it."""
+    """Film's filter and filter_width. Cycles and we count a Blackman-Harris width from the middle, Film all of it."""
     return {"filter": settings.filter.lower(), "filter_width": 2.0 * settings.filter_width}
 
 

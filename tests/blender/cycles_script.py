@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders small scenes by Cycles and Glimmer in turn, in one process: cycles_script.py FOLDER.
 
-Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3); and edges.npz, of an edge: WIDTH.ENGINE by
-filter width, each (height, width, 3).
+Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3); and edges.npz, of an edge:
+WIDTH.ENGINE by filter width, each (height, width, 3).
 """
 
 import math

@@ -67,8 +67,8 @@ def blackman_harris_cdf(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return t + np.sum(terms, axis=0) / 0.35875
 
 
-# Cycles draws from a table of 1024 places of the filter, the last of which is left at 0 (util_cdf_invert): off by a step
-# of it where the filter is densest, and a step of the samples elsewhere.
+# Cycles draws from a table of 1024 places of the filter, the last of which is left at 0 (util_cdf_invert): off by a
+# step of it where the filter is densest, and a step of the samples elsewhere.
 CYCLES_TABLE = (1.0 / 0.35875 + 1.0) / 1023
 
 

@@ -10,8 +10,8 @@ namespace glimmer {
 namespace {
 
 /// Inverse CDF of the Blackman-Harris window over [-0.5, 0.5] at equal steps of the CDF, for filter importance sampling
-/// (Ernst, Stamminger, Greiner 2006): every sample then counts the same and none leaves its pixel. The first and the last
-/// step spread evenly over a long tail that is all but empty: with 256 steps it got ten times its light.
+/// (Ernst, Stamminger, Greiner 2006): every sample then counts the same and none leaves its pixel. The first and the
+/// last step spread evenly over a long tail that is all but empty: with 256 steps it got ten times its light.
 std::vector<float> invert_blackman_harris() {
     constexpr int kFine = 65536, kSteps = 4096;
     const auto window = [](double x) { // x in [0, 1]
