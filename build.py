@@ -82,7 +82,7 @@ def run_blender(command: Sequence[str | Path], env: dict[str, str]) -> int:
 
 @dataclass(frozen=True)
 class Package:
-    """A Debian package, what needs it ("build", "render" or "test"), and why."""
+    """A Debian package, what needs it ("build", "render", "test", or a peer of the benchmark), and why."""
 
     name: str
     purpose: str
@@ -117,6 +117,7 @@ PACKAGES = (
     Package("libsm6", "test", "the bpy wheel"),
     Package("libice6", "test", "the bpy wheel"),
     Package("libgl1", "test", "the bpy wheel"),
+    Package("libllvm19", "mitsuba", "the benchmark's Mitsuba compiles with it; 14 and 15 are too old for it"),
 )
 
 
@@ -344,18 +345,38 @@ def lint() -> None:
         raise BuildError("lint found faults, printed above: " + "; ".join(failures))
 
 
-def bench(blender: str | None, quick: bool, cycles: bool, output: Path | None) -> None:
-    executable = setup(blender, ("build", "render", "test"))
+PEERS = ("mitsuba", "luxcore")
+
+
+@dataclass(frozen=True)
+class BenchOptions:
+    quick: bool
+    cycles: bool
+    scenes: str | None
+    peers: Sequence[str]
+    output: Path | None
+
+
+def bench(blender: str | None, given: BenchOptions) -> None:
+    executable = setup(blender, ("build", "render", "test", *given.peers))
     if executable is None:
         raise BuildError("the benchmark needs a Blender: it exports the scenes, and Cycles runs in it")
     build()
-    options = [*(["--quick"] if quick else []), *([] if cycles else ["--no-cycles"])]
+    options = [*(["--quick"] if given.quick else []), *([] if given.cycles else ["--no-cycles"])]
+    options += ["--scenes", given.scenes] if given.scenes is not None else []
     said = ["python3", "build.py", "bench", *options]
-    if output is not None:
-        said += ["--output", str(output.relative_to(ROOT) if output.is_relative_to(ROOT) else output.name)]
+    if given.peers:
+        said += ["--peers", ",".join(given.peers)]
+    if given.output is not None:
+        said += [
+            "--output",
+            str(given.output.relative_to(ROOT) if given.output.is_relative_to(ROOT) else given.output.name),
+        ]
     command: list[str | Path] = [virtual_environment("bench"), "-m", "tests.bench", *options]
-    command += ["--glimmer", COMMAND, "--blender", executable, "--output", output or BUILD / "bench"]
-    run([*command, "--said", " ".join(said)], env=host_environment(BUILD / "profile", executable))
+    for peer in given.peers:
+        command += ["--peer", f"{peer}={virtual_environment(peer)}"]
+    command += ["--glimmer", COMMAND, "--blender", executable, "--output", given.output or BUILD / "bench"]
+    run([*command, "--said", shlex.join(said)], env=host_environment(BUILD / "profile", executable))
 
 
 def check(quick: bool, integrator: str, only: str | None, report: Path | None) -> None:
@@ -447,9 +468,22 @@ def arguments() -> argparse.ArgumentParser:
     item = command("test", "Run the test suite.", blender=True)
     item.add_argument("--full", action="store_true", help="also the long tests, marked `full`")
     item.add_argument("extra", nargs="*", metavar="-- ARGUMENT", help="handed to pytest, as in `test -- -k sphere`")
-    item = command("bench", "Measure error against run time, ours and Cycles', and write a page on it.", blender=True)
-    item.add_argument("--quick", action="store_true", help="a smaller picture and fewer repetitions")
-    item.add_argument("--no-cycles", action="store_true", help="Glimmer's integrators alone")
+    item = command(
+        "bench",
+        "Measure error against run time, ours and Cycles', and write a page on it. Finished runs are kept under "
+        "build/bench/runs, so that the same command goes on where it was broken off.",
+        blender=True,
+    )
+    item.add_argument("--quick", action="store_true", help="a smaller picture and fewer repetitions: five minutes")
+    item.add_argument("--no-cycles", action="store_true", help="leave Cycles out")
+    item.add_argument("--scenes", metavar="NAME,...", help="some of its scenes (default: all six)")
+    item.add_argument(
+        "--peers",
+        type=lambda text: text.split(","),
+        default=[],
+        metavar="NAME,...",
+        help="also mitsuba, luxcore or both, fetched from PyPI into build/venv; may take an hour",
+    )
     item.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="for the page and its plot (default: build/bench)"
     )
@@ -490,7 +524,10 @@ def main(argv: Sequence[str]) -> int:
             test(given.blender, given.full, given.extra)
         elif given.command == "bench":
             output = given.output.absolute() if given.output else None
-            bench(given.blender, given.quick, not given.no_cycles, output)
+            unknown = sorted(set(given.peers) - set(PEERS))
+            if unknown:
+                parser.error(f"--peers {', '.join(unknown)}: must be of {', '.join(PEERS)}")
+            bench(given.blender, BenchOptions(given.quick, not given.no_cycles, given.scenes, given.peers, output))
         elif given.command == "check":
             report = given.report.absolute() if given.report else None
             check(given.quick, given.integrator, given.only, report)

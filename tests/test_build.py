@@ -47,6 +47,7 @@ def test_help_names_every_command() -> None:
         (("render", "--resolution", "101"), "--resolution 101: must be from 1 to 100"),
         (("render", "nowhere.blend"), "nowhere.blend: no such file"),
         (("setup", "--blender", "/nowhere/blender"), "--blender /nowhere/blender: no such executable"),
+        (("bench", "--peers", "mitsuba,arnold"), "--peers arnold: must be of mitsuba, luxcore"),
         (("polish",), "invalid choice: 'polish'"),
     ],
 )
@@ -63,7 +64,7 @@ def test_bad_arguments_are_refused_in_words(arguments: Sequence[str], message: s
 def test_package_table_has_no_doubles_and_known_purposes() -> None:
     names = [package.name for package in build.PACKAGES]
     assert len(names) == len(set(names))
-    assert {package.purpose for package in build.PACKAGES} == {"build", "render", "test"}
+    assert {package.purpose for package in build.PACKAGES} == {"build", "render", "test", "mitsuba"}
     assert all(package.why for package in build.PACKAGES)
 
 
@@ -141,7 +142,7 @@ def test_a_virtual_environment_is_made_once_per_requirements(
     assert len(calls) == 4
 
 
-@pytest.mark.parametrize("name", ["test", "bpy", "bench"])
+@pytest.mark.parametrize("name", ["test", "bpy", "bench", "mitsuba", "luxcore"])
 def test_requirements_are_pinned(name: str) -> None:
     lines = (build.REQUIREMENTS / f"{name}.txt").read_text().splitlines()
     pins = [line for line in lines if line and not line.startswith("#")]

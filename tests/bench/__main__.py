@@ -1,49 +1,67 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures error against CPU time: Glimmer's integrators and Cycles, on scenes of blend_scenes/.
+"""Measures error against CPU time: Glimmer's integrators, Cycles and others, on scenes of blend_scenes/ and variants.
 
 `python3 build.py bench` runs this as `python -m tests.bench` from the root of the checkout.
 """
 
 import argparse
 import os
-import shutil
+import re
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from tests.bench.errors import Picture, Point, Run, agreement, noise_of, relative_errors, worst_share
+from tests.bench.errors import Picture, Point, Run, agreement, block_means, noise_of, relative_errors, worst_share
 from tests.bench.renderers import (
     BenchError,
-    FromBlender,
+    CannotRenderError,
+    Cycles,
     Glimmer,
+    Peer,
+    Stage,
     Task,
-    set_up_seconds,
-    through_blender,
+    set_stage,
     without_set_up,
 )
 from tests.bench.report import Entry, SceneResult, Setting, markdown
+from tests.bench.scenes import SCENES, BenchScene
 
 ROOT = Path(__file__).resolve().parents[2]
-SCENES = ("moons_in_fog", "glimmervoid", "clearing")
+INTEGRATORS = ("path", "report")
+PEERS = {"mitsuba": "mitsuba", "luxcore": "pyluxcore"}  # their packages
 _REFERENCE_SEED = 1_000_000
+_SINGLE_SEED = 10_000
 
 
 @dataclass(frozen=True)
 class Plan:
     size: tuple[int, int]
-    levels: dict[str, tuple[int, ...]]  # samples a pixel, by renderer
+    levels: Mapping[str, tuple[int, ...]]  # samples a pixel, by renderer
     repetitions: int
     reference: int  # samples a pixel of each of the reference's runs
     reference_runs: int  # a multiple of 3: a third of them for each part
 
 
-FULL = Plan((240, 135), {"path": (1, 4, 16, 64), "report": (4, 16, 64, 256), "Cycles": (4, 16, 64, 256)}, 4, 64, 9)
-# About three CPU minutes.
-QUICK = Plan((96, 54), {"path": (1, 4, 16, 64), "report": (4, 16, 64, 256), "Cycles": (2, 8, 32, 128)}, 3, 48, 9)
+_OTHERS = (4, 16, 64, 256)
+FULL = Plan(
+    (240, 135),
+    {"path": (1, 4, 16, 64), "report": _OTHERS, "Cycles": _OTHERS, "mitsuba": _OTHERS, "luxcore": _OTHERS},
+    4,
+    64,
+    9,
+)
+_FEWER = (2, 8, 32, 128)
+QUICK = Plan(
+    (96, 54),
+    {"path": (1, 4, 16, 64), "report": _OTHERS, "Cycles": _FEWER, "mitsuba": _OTHERS, "luxcore": _FEWER},
+    3,
+    48,
+    9,
+)
 
 
 def say(text: str) -> None:
@@ -63,52 +81,63 @@ def thirds(reference: Sequence[Run]) -> list[Picture]:
 
 def measured_point(run: Run, parts: Sequence[Picture]) -> Point:
     errors = relative_errors(run.picture, parts)
-    return Point(run.samples, run.cpu, float(errors.mean()), worst_share(errors))
+    blocks = relative_errors(block_means(run.picture), [block_means(part) for part in parts])
+    return Point(run.samples, run.cpu, run.wall, float(errors.mean()), float(blocks.mean()), worst_share(errors))
 
 
-def cycles_runs(told: FromBlender, plan: Plan) -> tuple[list[list[Run]], float]:
-    """[repetition][level] without set-up, and the set-up; `told.cycles` starts with the renders of one sample."""
-    levels = len(plan.levels["Cycles"])
-    singles, rest = told.cycles[: plan.repetitions], told.cycles[plan.repetitions :]
-    rows = [rest[start : start + levels] for start in range(0, len(rest), levels)]
-    set_up = set_up_seconds(singles, [max(row, key=lambda run: run.samples) for row in rows])
-    return [without_set_up(row, set_up) for row in rows], set_up
+@dataclass(frozen=True)
+class Renderers:
+    glimmer: Path
+    blender: Path
+    with_cycles: bool
+    peers: Sequence[Peer] = ()
+
+    def names(self) -> list[str]:
+        return [*INTEGRATORS, *(["Cycles"] if self.with_cycles else []), *(peer.name for peer in self.peers)]
+
+    def runs(self, name: str, stage: Stage, plan: Plan) -> list[list[Run]]:
+        """[repetition][level]"""
+        levels = plan.levels[name]
+        wanted = [task for repetition in range(plan.repetitions) for task in tasks(levels, repetition)]
+        if name in INTEGRATORS:
+            return in_rows(Glimmer(self.glimmer, name).runs(stage, wanted), len(levels))
+        singles = [Task(1, _SINGLE_SEED + repetition) for repetition in range(plan.repetitions)]
+        others: list[Cycles | Peer] = [Cycles(self.blender), *self.peers]
+        found = next(other for other in others if other.name == name).runs(stage, singles + wanted)
+        return without_set_up(in_rows(found[len(singles) :], len(levels)), found[: len(singles)])
 
 
-def measure(
-    name: str, plan: Plan, glimmer: Glimmer, blender: Path, with_cycles: bool, folder: Path
-) -> tuple[SceneResult, str]:
-    """The result and Blender's version. Leaves the scene, the pictures and their reports in `folder`."""
-    shutil.rmtree(folder, ignore_errors=True)
-    wanted: list[Task] = []
-    if with_cycles:
-        wanted += [Task(1, 10_000 + repetition) for repetition in range(plan.repetitions)]
-        for repetition in range(plan.repetitions):
-            wanted += tasks(plan.levels["Cycles"], repetition)
-        say(f"{name}: Cycles")
-    told = through_blender(blender, ROOT / "blend_scenes" / f"{name}.blend", plan.size, folder, wanted)
-    runs: dict[str, tuple[list[list[Run]], float | None]] = {}
-    for integrator in ("path", "report"):
-        say(f"{name}: {integrator}")
-        rows = [
-            [glimmer.render(told.scene, integrator, task) for task in tasks(plan.levels[integrator], repetition)]
-            for repetition in range(plan.repetitions)
-        ]
-        runs[integrator] = rows, None
-    if with_cycles:
-        runs["Cycles"] = cycles_runs(told, plan)
-    say(f"{name}: reference")
-    reference = [
-        glimmer.render(told.scene, "path", Task(plan.reference, _REFERENCE_SEED + index))
-        for index in range(plan.reference_runs)
-    ]
+def in_rows(runs: Sequence[Run], length: int) -> list[list[Run]]:
+    return [list(runs[start : start + length]) for start in range(0, len(runs), length)]
+
+
+def measure(scene: BenchScene, plan: Plan, renderers: Renderers, folder: Path) -> tuple[SceneResult, str]:
+    """The result and Blender's version. Leaves the scene and the runs in `folder`, and takes up what it finds there."""
+    stage = set_stage(renderers.blender, scene, plan.size, folder)
+    say(f"{scene.name}: reference")
+    wanted = [Task(plan.reference, _REFERENCE_SEED + index) for index in range(plan.reference_runs)]
+    reference = Glimmer(renderers.glimmer, "path").runs(stage, wanted)
     parts = thirds(reference)
-    entries = {}
-    for renderer, (rows, set_up) in runs.items():
-        points = [[measured_point(run, parts) for run in row] for row in rows]
+    entries: dict[str, Entry] = {}
+    cannot: dict[str, str] = {}
+    for name in renderers.names():
+        say(f"{scene.name}: {name}")
+        try:
+            rows = renderers.runs(name, stage, plan)
+        except CannotRenderError as reason:
+            cannot[name] = str(reason)
+            continue
         every = [run for row in rows for run in row]
-        entries[renderer] = Entry(points, agreement(every, reference), set_up, sum(run.invalid for run in every))
-    return SceneResult(name, entries, plan.reference * plan.reference_runs, noise_of(parts)), told.version
+        set_ups = [run.set_up for run in every if run.set_up is not None]
+        entries[name] = Entry(
+            [[measured_point(run, parts) for run in row] for row in rows],
+            agreement(every, reference),
+            float(np.median(set_ups)),
+            sum(run.invalid for run in every),
+            max(run.peak_bytes for run in every),
+        )
+    samples = plan.reference * plan.reference_runs
+    return SceneResult(scene.name, entries, samples, noise_of(parts), cannot), stage.blender
 
 
 def revision() -> str:
@@ -122,6 +151,27 @@ def revision() -> str:
     return f"commit {commit}{' with changes' if changed else ''}" if commit else "outside of git"
 
 
+def peer_of(text: str) -> Peer:
+    """NAME=PYTHON"""
+    name, _, python = text.partition("=")
+    if name not in PEERS or not python:
+        raise argparse.ArgumentTypeError(f"{text}: must be NAME=PYTHON with one of {', '.join(PEERS)}")
+    ask = f"import importlib.metadata; print(importlib.metadata.version({PEERS[name]!r}))"
+    told = subprocess.run([python, "-c", ask], capture_output=True, text=True, check=False)
+    if not re.fullmatch(r"[\w.+]+\n", told.stdout):
+        raise argparse.ArgumentTypeError(f"{text}: no {PEERS[name]} there: {told.stderr[-500:]}")
+    return Peer(name, Path(python), told.stdout.strip())
+
+
+def scenes_of(text: str) -> list[BenchScene]:
+    known = {scene.name: scene for scene in SCENES}
+    names = text.split(",")
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"{', '.join(unknown)}: no such scene; there are {', '.join(known)}")
+    return [known[name] for name in known if name in names]
+
+
 def main(argv: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     parser.add_argument("--glimmer", type=Path, required=True)
@@ -130,34 +180,36 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--said", required=True, metavar="COMMAND", help="how the user started this, for the page")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--no-cycles", action="store_true")
+    parser.add_argument("--scenes", type=scenes_of, default=list(SCENES))
+    parser.add_argument("--peer", type=peer_of, action="append", default=[], metavar="NAME=PYTHON")
     given = parser.parse_args(argv)
     plan = QUICK if given.quick else FULL
-    glimmer = Glimmer(given.glimmer)
+    renderers = Renderers(given.glimmer, given.blender, not given.no_cycles, given.peer)
     before = os.getloadavg()[0]
     results, version = [], ""
+    runs = ROOT / "build" / "bench" / "runs" / f"{plan.size[0]}x{plan.size[1]}"
     try:
-        for name in SCENES:
-            folder = ROOT / "build" / "bench" / name
-            result, version = measure(name, plan, glimmer, given.blender, not given.no_cycles, folder)
+        for scene in given.scenes:
+            result, version = measure(scene, plan, renderers, runs / scene.name)
             results.append(result)
     except BenchError as error:
         sys.stderr.write(f"bench: {error}\n")
         return 1
     setting = Setting(
         given.said,
-        glimmer.version().removeprefix("glimmer "),
+        Glimmer(given.glimmer, "path").version().removeprefix("glimmer "),
         revision(),
-        f"Blender {version}",
+        ", ".join([f"Blender {version}", *(f"{peer.name} {peer.version}" for peer in given.peer)]),
         plan.size,
         plan.repetitions,
         (before, os.getloadavg()[0]),
     )
-    from tests.bench.plot import write_plot  # matplotlib is not among what the tests need
+    from tests.bench.plot import write_plots  # matplotlib is not among what the tests need
 
     given.output.mkdir(parents=True, exist_ok=True)
     page = given.output / "README.md"
     page.write_text(markdown(results, setting))
-    write_plot(results, given.output / "error_against_time.png")
+    write_plots(results, given.output / "error_against_time")
     say(page.read_text())
     say(str(page))
     return 0

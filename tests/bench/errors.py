@@ -46,12 +46,24 @@ def noise_of(thirds: Sequence[Picture]) -> float:
     return float(np.mean(parts.var(axis=0, ddof=1) / 3 / (mu**2 + (0.01 * mu.mean()) ** 2)))
 
 
+def block_means(picture: Picture, size: int = 32) -> Picture:
+    """Means of blocks of size x size pixels, smaller at the right and at the bottom."""
+    rows, columns = (np.arange(0, length, size) for length in picture.shape[:2])
+    sums = np.add.reduceat(np.add.reduceat(picture.astype(np.float64), rows, axis=0), columns, axis=1)
+    heights = np.diff(np.append(rows, picture.shape[0]))
+    widths = np.diff(np.append(columns, picture.shape[1]))
+    return np.asarray(sums / (heights[:, None, None] * widths[None, :, None]), np.float32)
+
+
 @dataclass(frozen=True)
 class Run:
-    samples: int
+    samples: float  # a pixel
     cpu: float  # seconds, of the render alone
     picture: Picture
+    wall: float = 0.0
     invalid: int = 0  # samples that were not finite or were broken off
+    peak_bytes: int = 0  # resident, of the whole process
+    set_up: float | None = None  # seconds before the first sample
 
 
 @dataclass(frozen=True)
@@ -102,10 +114,12 @@ def agreement(runs: Sequence[Run], reference: Sequence[Run]) -> Agreement:
 
 @dataclass(frozen=True)
 class Point:
-    samples: int
+    samples: float
     cpu: float
+    wall: float
     error: float  # relMSE
-    worst: float  # share of it that is the worst hundredth's of pixels and channels
+    block: float  # the same of the means of blocks of 32 x 32 pixels
+    worst: float  # share of the relMSE that is the worst hundredth's of pixels and channels
 
 
 @dataclass(frozen=True)
@@ -120,20 +134,26 @@ class Line:
 
 
 def mean_points(points: Sequence[Sequence[Point]]) -> list[Point]:
-    """One for each level: points[repetition][level]."""
+    """One for each level: points[repetition][level]. Medians of seconds, which a busy machine spoils; means of errors,
+    which are expectations.
+    """
     return [
         Point(
-            level[0].samples, *(float(np.mean([getattr(p, key) for p in level])) for key in ("cpu", "error", "worst"))
+            *(float(np.median([getattr(p, key) for p in level])) for key in ("samples", "cpu", "wall")),
+            *(float(np.mean([getattr(p, key) for p in level])) for key in ("error", "block", "worst")),
         )
         for level in zip(*points, strict=True)
     ]
 
 
-def fit(points: Sequence[Point]) -> Line | None:
-    """None where no line falls through the points: fewer than two, an error that is not positive, no decrease."""
-    if len(points) < 2 or any(point.error <= 0 for point in points):
+def fit(points: Sequence[Point], kind: str = "error") -> Line | None:
+    """Of errors by pixel ("error") or by block ("block"). None where no line falls through the points: fewer than two,
+    an error that is not positive, no decrease.
+    """
+    errors = [getattr(point, kind) for point in points]
+    if len(points) < 2 or min(errors) <= 0:
         return None
-    slope, intercept = np.polyfit(np.log([p.cpu for p in points]), np.log([p.error for p in points]), 1)
+    slope, intercept = np.polyfit(np.log([p.cpu for p in points]), np.log(errors), 1)
     return Line(float(np.exp(intercept)), -float(slope)) if slope < 0 else None
 
 
@@ -147,23 +167,23 @@ class TimeTo:
     at_most: bool  # a single sample has a smaller error already: the time of that sample
 
 
-def time_to(points: Sequence[Sequence[Point]], target: float) -> TimeTo | None:
+def time_to(points: Sequence[Sequence[Point]], target: float, kind: str = "error") -> TimeTo | None:
     """By the line through the mean points, with a jackknife over the repetitions."""
     means = mean_points(points)
-    line = fit(means)
+    line = fit(means, kind)
     if line is None:
         return None
     first = min(means, key=lambda point: point.samples)
-    if first.samples == 1 and first.error <= target:
+    if first.samples == 1 and getattr(first, kind) <= target:
         return TimeTo(first.cpu, 1.0, False, True)
     count = len(points)
     logs = []
     for left_out in range(count):
-        part = fit(mean_points([row for index, row in enumerate(points) if index != left_out]))
+        part = fit(mean_points([row for index, row in enumerate(points) if index != left_out]), kind)
         if part is None:
             return None
         logs.append(math.log(part.seconds(target)))
     error = math.sqrt((count - 1) * float(np.var(logs)))
-    errors = [point.error for point in means]
+    errors = [getattr(point, kind) for point in means]
     factor = math.exp(float(stats.t.ppf((1 + CONFIDENCE) / 2, count - 1)) * error)
     return TimeTo(line.seconds(target), factor, not min(errors) <= target <= max(errors), False)

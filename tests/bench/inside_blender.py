@@ -1,26 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The benchmark's work inside Blender, on one scene: blender -b --python inside_blender.py -- JOB.json
 
-JOB.json holds "scene" (.blend), "width", "height", "export" (where Glimmer's scene file goes), "folder" (for the
-pictures of Cycles), "cycles" ([[samples, seed], ...] or []) and "result": the JSON file to write, with Blender's
-version and, for each render, its samples, its seed, the CPU seconds (user + system) of this process meanwhile, and
-its picture.
+JOB.json holds "scene" (.blend), "haze" (null, or "sigma_s" and "sigma_a") and "roughness" (null, or a number) to put in
+place of the file's, "width", "height", "result" (the JSON file to write, with Blender's version) and one of "export"
+(where Glimmer's scene file goes) and "cycles": [[samples, seed], ...]. Cycles' pictures go into "folder", each with its
+record (see store.py) as soon as it is there; CPU and wall seconds are those of this process meanwhile.
 """
 
 import json
 import math
-import os
+import resource
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
 import addon_utils
 import bpy
 
+ROOT = Path(__file__).resolve().parents[2]
 
-def cpu_seconds() -> float:
-    times = os.times()
-    return times.user + times.system
+
+def change(scene: Any, haze: dict[str, list[float]] | None, roughness: float | None) -> None:
+    """Makes a variant of the scene."""
+    if haze is not None:
+        sys.path.insert(0, str(ROOT / "blend_scenes"))
+        import stage
+
+        stage.haze(scene, tuple(haze["sigma_s"]), tuple(haze["sigma_a"]))  # type: ignore[arg-type]
+    if roughness is None:
+        return
+    trees = [material.node_tree for material in bpy.data.materials if material.use_nodes]
+    glossy = [node for tree in trees for node in tree.nodes if node.bl_idname.startswith("ShaderNodeBsdf")]
+    if not glossy or any("Roughness" not in node.inputs for node in glossy):
+        raise RuntimeError("a variant in roughness needs materials that have one")
+    for node in glossy:
+        node.inputs["Roughness"].default_value = roughness
 
 
 def correct_spheres(scene: Any) -> None:
@@ -60,13 +75,32 @@ def set_up_cycles(scene: Any) -> None:
         if hasattr(scene.cycles, name):
             setattr(scene.cycles, name, value)
     scene.world.cycles.volume_sampling = "MULTIPLE_IMPORTANCE"
+    image = scene.render.image_settings
+    if hasattr(image, "media_type"):  # 5.0 on
+        image.media_type = "IMAGE"
+    image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
 
 
-def render(scene: Any, samples: int, seed: int) -> float:
+def render(scene: Any, samples: int, seed: int) -> tuple[float, float]:
+    """CPU and wall seconds."""
     scene.cycles.samples, scene.cycles.seed = samples, seed
-    before = cpu_seconds()
+    cpu, wall = time.process_time(), time.monotonic()
     bpy.ops.render.render()
-    return cpu_seconds() - before
+    return time.process_time() - cpu, time.monotonic() - wall
+
+
+def render_all(scene: Any, folder: Path, tasks: list[list[int]]) -> None:
+    sys.path.insert(0, str(ROOT))
+    from tests.bench.store import picture_of, write_record
+
+    correct_spheres(scene)
+    set_up_cycles(scene)
+    render(scene, 1, 0)  # what only the first render of a process does
+    for samples, seed in tasks:
+        cpu, wall = render(scene, samples, seed)
+        bpy.data.images["Render Result"].save_render(str(picture_of(folder, samples, seed)), scene=scene)
+        peak_bytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+        write_record(folder, samples, seed, samples, cpu, wall, peak_bytes, 0, None)
 
 
 def main(job: dict[str, Any]) -> None:
@@ -79,22 +113,12 @@ def main(job: dict[str, Any]) -> None:
     scene.render.resolution_x, scene.render.resolution_y = job["width"], job["height"]
     scene.render.resolution_percentage = 100
     scene.glimmer.filter = "BOX"
-    bpy.ops.glimmer.export_scene(filepath=job["export"])
-    renders: list[dict[str, Any]] = []
-    if job["cycles"]:
-        correct_spheres(scene)
-        set_up_cycles(scene)
-        image = scene.render.image_settings
-        if hasattr(image, "media_type"):  # 5.0 on
-            image.media_type = "IMAGE"
-        image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
-        render(scene, 1, 0)  # what only the first render of a process does
-        for samples, seed in job["cycles"]:
-            cpu = render(scene, samples, seed)
-            picture = Path(job["folder"]) / f"cycles_{samples}_{seed}.exr"
-            bpy.data.images["Render Result"].save_render(str(picture), scene=scene)
-            renders.append({"samples": samples, "seed": seed, "cpu": cpu, "picture": str(picture)})
-    Path(job["result"]).write_text(json.dumps({"version": bpy.app.version_string, "renders": renders}))
+    change(scene, job["haze"], job["roughness"])
+    if "export" in job:
+        bpy.ops.glimmer.export_scene(filepath=job["export"])
+    else:
+        render_all(scene, Path(job["folder"]), job["cycles"])
+    Path(job["result"]).write_text(json.dumps({"version": bpy.app.version_string}))
 
 
 if __name__ == "__main__":

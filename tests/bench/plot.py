@@ -12,13 +12,23 @@ from tests.bench.errors import fit, mean_points
 from tests.bench.report import TARGETS, SceneResult, agrees
 
 _STYLE = {"path": ("#1b6ca8", "o"), "report": ("#c44e52", "s"), "Cycles": ("#5a5a5a", "^")}
-_LABEL = {"path": "Glimmer path", "report": "Glimmer report"}
+_STYLE |= {"mitsuba": ("#2f8f5b", "D"), "luxcore": ("#b07aa1", "v")}
+_LABEL = {"path": "Glimmer path", "report": "Glimmer report", "mitsuba": "Mitsuba 3", "luxcore": "LuxCore"}
+_COLUMNS = 3
 
 
-def write_plot(results: Sequence[SceneResult], file: Path) -> None:
+def write_plots(results: Sequence[SceneResult], stem: Path) -> None:
+    """STEM.png and STEM.svg; the same results give the same bytes."""
     mpl.use("agg")
-    figure, panels = plt.subplots(1, len(results), figsize=(4.2 * len(results), 3.9), sharey=True, squeeze=False)
-    for panel, result in zip(panels[0], results, strict=True):
+    mpl.rcParams["svg.hashsalt"] = "glimmer"
+    columns = min(len(results), _COLUMNS)
+    rows = -(-len(results) // columns)
+    size = (4.2 * columns, 3.7 * rows)
+    figure, grid = plt.subplots(rows, columns, figsize=size, sharey=True, squeeze=False)
+    panels = grid.ravel()
+    for panel in panels[len(results) :]:
+        panel.set_visible(False)
+    for panel, result in zip(panels, results, strict=False):
         for name, entry in result.entries.items():
             color, marker = _STYLE[name]
             label = _LABEL.get(name, name) + ("" if agrees(entry, results) else " (another picture)")
@@ -38,7 +48,9 @@ def write_plot(results: Sequence[SceneResult], file: Path) -> None:
         panel.grid(True, which="major", color="#e6e6e6", lw=0.6)
         panel.set_axisbelow(True)
         panel.legend(fontsize=8, frameon=False)
-    panels[0][0].set_ylabel("relMSE")
+    for row in grid:
+        row[0].set_ylabel("relMSE")
     figure.tight_layout()
-    figure.savefig(file, dpi=110, metadata={"Software": None})
+    figure.savefig(stem.with_suffix(".png"), dpi=110, metadata={"Software": None})
+    figure.savefig(stem.with_suffix(".svg"), metadata={"Date": None, "Creator": None})
     plt.close(figure)

@@ -5,13 +5,15 @@ import os
 import platform
 import textwrap
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests.bench.errors import TESTS_PER_PAIR, Agreement, Point, TimeTo, fit, mean_points, time_to
+from tests.bench.scenes import SCENES
 
 LEVEL = 1e-3  # of one false alarm in the whole benchmark
-TARGETS = (0.1, 0.01)
+TARGETS = (0.1, 0.01, 0.001)
+BLOCK_TARGETS = (0.001, 0.0001)
 YARDSTICK = "path"
 
 
@@ -21,8 +23,9 @@ class Entry:
 
     points: list[list[Point]]  # [repetition][level]
     agreement: Agreement
-    set_up: float | None  # CPU seconds before the first sample, where they had to be subtracted
+    set_up: float  # seconds before the first sample
     invalid: int = 0  # samples, of all runs
+    peak_bytes: int = 0  # resident, of the whole process, the most of all runs
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,7 @@ class SceneResult:
     entries: Mapping[str, Entry]  # by renderer
     reference_samples: int  # of all its runs together
     reference_error: float  # its own relMSE
+    cannot: Mapping[str, str] = field(default_factory=dict)  # why a renderer cannot render the scene, by renderer
 
 
 @dataclass(frozen=True)
@@ -38,7 +42,7 @@ class Setting:
     command: str
     glimmer: str
     revision: str
-    blender: str
+    others: str  # versions of the other renderers
     size: tuple[int, int]
     repetitions: int
     load: tuple[float, float]  # averages over a minute, before and after
@@ -73,23 +77,29 @@ def _time(time: TimeTo | None, base: TimeTo | None) -> str:
     return text
 
 
-def _ranking(results: Sequence[SceneResult]) -> list[str]:
-    lines = ["| scene | renderer | " + " | ".join(f"relMSE {t:g}" for t in TARGETS) + " | error falls as |"]
-    lines.append("|---|---" + "|---" * len(TARGETS) + "|---|")
+def _ranking(results: Sequence[SceneResult], targets: Sequence[float], kind: str) -> list[str]:
+    """A table of times to errors by pixel (kind "error") or by block ("block")."""
+    name = "relMSE" if kind == "error" else "block relMSE"
+    lines = ["| scene | renderer | " + " | ".join(f"{name} {t:g}" for t in targets) + " | error falls as |"]
+    lines.append("|---|---" + "|---" * len(targets) + "|---|")
     for result in results:
         yardstick = result.entries[YARDSTICK]
         comparable = agrees(yardstick, results)
-        for name, entry in result.entries.items():
-            line = fit(mean_points(entry.points))
+        for renderer, entry in result.entries.items():
+            line = fit(mean_points(entry.points), kind)
             cells = []
-            for target in TARGETS:
+            for target in targets:
                 if not agrees(entry, results):
                     cells.append("not ranked: another picture")
                     continue
-                base = time_to(yardstick.points, target) if comparable and name != YARDSTICK else None
-                cells.append(_time(time_to(entry.points, target), base))
+                base = time_to(yardstick.points, target, kind) if comparable and renderer != YARDSTICK else None
+                cells.append(_time(time_to(entry.points, target, kind), base))
             power = f"t^-{line.power:.2f}" if line else "?"
-            lines.append(f"| {result.name} | {name} | {' | '.join(cells)} | {power} |")
+            lines.append(f"| {result.name} | {renderer} | {' | '.join(cells)} | {power} |")
+        for renderer, reason in result.cannot.items():
+            lines.append(
+                f"| {result.name} | {renderer} | {' | '.join([f'cannot render it: {reason}'] * len(targets))} | |"
+            )
     return lines
 
 
@@ -106,22 +116,23 @@ def _checks(results: Sequence[SceneResult]) -> list[str]:
 
 
 def _points(results: Sequence[SceneResult]) -> list[str]:
-    lines = ["| scene | renderer | samples a pixel | CPU seconds | relMSE | worst 1 % |", "|---|---|---|---|---|---|"]
+    lines = ["| scene | renderer | samples a pixel | CPU seconds | wall seconds | relMSE | worst 1 % | block relMSE |"]
+    lines.append("|---" * 8 + "|")
     for result in results:
         for name, entry in result.entries.items():
             for point in mean_points(entry.points):
-                measured = f"{point.samples} | {point.cpu:.3f} | {point.error:.4g} | {point.worst:.0%}"
-                lines.append(f"| {result.name} | {name} | {measured} |")
+                times = f"{point.samples:.0f} | {point.cpu:.3f} | {point.wall:.3f}"
+                errors = f"{point.error:.4g} | {point.worst:.0%} | {point.block:.3g}"
+                lines.append(f"| {result.name} | {name} | {times} | {errors} |")
     return lines
 
 
-def _set_up(results: Sequence[SceneResult]) -> list[str]:
-    return [
-        f"{name} on {result.name}: {entry.set_up:.2f} s"
-        for result in results
-        for name, entry in result.entries.items()
-        if entry.set_up is not None
-    ]
+def _costs(results: Sequence[SceneResult]) -> list[str]:
+    lines = ["| scene | renderer | set-up, seconds | peak memory, MB |", "|---|---|---|---|"]
+    for result in results:
+        for name, entry in result.entries.items():
+            lines.append(f"| {result.name} | {name} | {entry.set_up:.2f} | {entry.peak_bytes / 1e6:.0f} |")
+    return lines
 
 
 def _invalid(results: Sequence[SceneResult]) -> str:
@@ -131,7 +142,7 @@ def _invalid(results: Sequence[SceneResult]) -> str:
         for name, entry in result.entries.items()
         if entry.invalid
     ]
-    return ", ".join(found) or "none of Glimmer's; Cycles does not tell"
+    return ", ".join(found) or "none of Glimmer's; the others do not tell"
 
 
 def _paragraph(text: str, indent: str = "") -> str:
@@ -142,6 +153,19 @@ def _bullet(text: str) -> str:
     return _paragraph(f"- {text}", "  ")
 
 
+def _about_peers(results: Sequence[SceneResult]) -> list[str]:
+    names = {name for result in results for name in (*result.entries, *result.cannot)}
+    about = {
+        "mitsuba": "Mitsuba (llvm_ad_rgb): `path`, or `volpath` in fog, no limit on depth, its own roulette. Its "
+        "GGX masks separably (Glimmer's height-correlated). It gets the plates as one mesh, as it compiles code for "
+        "each instance; its set-up reads that, builds and compiles.",
+        "luxcore": "LuxCore: PATHCPU with Sobol samples, 1024 bounces of each kind. Spheres are meshes of 2048 quads "
+        "scaled to the sphere's area. Its metal has another masking, and a Fresnel factor that rises at grazing: where "
+        "there is metal, expect another picture.",
+    }
+    return [_bullet(text) for name, text in about.items() if name in names]
+
+
 def markdown(results: Sequence[SceneResult], setting: Setting) -> str:
     width, height = setting.size
     references = "; ".join(
@@ -150,8 +174,7 @@ def markdown(results: Sequence[SceneResult], setting: Setting) -> str:
     measured = (
         _bullet(
             f"{width} x {height} pixels, box filter, no limit on depth (Cycles: 1024 bounces of each kind), no clamp, "
-            "no denoiser, no adaptive sampling. All read the same .blend; Glimmer's command line renders what the "
-            "add-on exports from it."
+            "no denoiser, no adaptive sampling. Cycles reads the .blend, all others what the add-on exports from it."
         ),
         _bullet(
             "relMSE: the mean over pixels and channels of squared error / (mu^2 + (0.01 of the picture's mean)^2). "
@@ -162,18 +185,20 @@ def markdown(results: Sequence[SceneResult], setting: Setting) -> str:
             f"Reference: Glimmer `path` with other seeds: {references}. Tests against closed forms check `path` "
             "itself; here the means of the others do."
         ),
+        *(_bullet(f"{scene.name}: {scene.what}.") for scene in SCENES if scene.name in {r.name for r in results}),
         _bullet(f"{setting.repetitions} repetitions of every number of samples, each with a seed of its own."),
         _bullet(
             "CPU seconds: user + system of the render on all cores, without loading and building. For Glimmer as its "
-            "`--report` tells. For Cycles from the resource usage of its process around each render: set-up is what "
-            "renders of 1 sample take, less that sample; the longest render less set-up, shared out over its samples, "
-            f"gives the time of fewer samples. Set-up: {'; '.join(_set_up(results)) or 'none'}."
+            "`--report` tells, for the others from the resource usage of their process around each render: set-up "
+            "is there what renders of 1 sample take, less that sample; the longest render less set-up, shared out over "
+            "its samples, gives the time of fewer samples."
         ),
         _bullet(
             "Cycles gets spheres as the meshes of the .blend, scaled to the sphere's area, and draws distances in fog "
             "by multiple importance sampling. In Blender before 3.5 it has no light tree, and it samples closed lights "
             "on their inner sides too; a newer one may do better."
         ),
+        *_about_peers(results),
         _bullet(f"Samples that were not finite or were broken off: {_invalid(results)}."),
     )
     page = [
@@ -183,15 +208,26 @@ def markdown(results: Sequence[SceneResult], setting: Setting) -> str:
         "",
         "![Error against CPU seconds](error_against_time.png)",
         "",
+        "([The same as SVG](error_against_time.svg).)",
+        "",
         "## CPU seconds to an error, and as a multiple of `path`",
         "",
-        *_ranking(results),
+        *_ranking(results, TARGETS, "error"),
         "",
         _paragraph(
             "From a line through the measured points on logarithmic axes. ×/÷: the 95 % interval, by a jackknife over "
             f"the {setting.repetitions} repetitions; it knows nothing of what the line itself gets wrong. *: "
             "extrapolated, the target lies outside the errors that were measured. ≤: a single sample a pixel has a "
             "smaller error already."
+        ),
+        "",
+        "## The same for what the eye sees from afar",
+        "",
+        *_ranking(results, BLOCK_TARGETS, "block"),
+        "",
+        _paragraph(
+            "relMSE of the means of blocks of 32 x 32 pixels. `path` shares light paths among pixels, so their errors "
+            "are not independent, and averaging them gains less than it does with the others."
         ),
         "",
         "## Do they show the same picture?",
@@ -204,12 +240,21 @@ def markdown(results: Sequence[SceneResult], setting: Setting) -> str:
             "standard error of the whole: how small a difference could be seen."
         ),
         "",
+        "## Before the first sample, and memory",
+        "",
+        *_costs(results),
+        "",
+        _paragraph(
+            "Set-up: loading and building, and compiling where that is done; wall seconds for Glimmer, CPU seconds for "
+            "the others. Memory: the most that the whole process had resident, in Cycles' case with all of Blender."
+        ),
+        "",
         "## How it was measured",
         "",
         *measured,
         "",
         _paragraph(
-            f"Glimmer {setting.glimmer}, {setting.revision}; {setting.blender}; {processor()}, {os.cpu_count()} cores; "
+            f"Glimmer {setting.glimmer}, {setting.revision}; {setting.others}; {processor()}, {os.cpu_count()} cores; "
             f"{platform.system()} {platform.machine()}. Load average {setting.load[0]:.1f} before and "
             f"{setting.load[1]:.1f} after: trust ratios, not seconds."
         ),
@@ -217,9 +262,9 @@ def markdown(results: Sequence[SceneResult], setting: Setting) -> str:
         "## Measured points",
         "",
         _paragraph(
-            "Means over the repetitions. The last column is the share of the relMSE that is the worst hundredth's of "
-            "pixels and channels: where it is large, rare bright samples (fireflies) make the error, the line is "
-            "uncertain and most of the picture is better than the relMSE says."
+            "Means over the repetitions, medians of the seconds. Worst 1 %: the share of the relMSE that is the worst "
+            "hundredth's of pixels and channels: where it is large, rare bright samples (fireflies) make the error, "
+            "the line is uncertain and most of the picture is better than the relMSE says."
         ),
         "",
         *_points(results),
