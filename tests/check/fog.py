@@ -43,6 +43,17 @@ def beside_ray(medium: d.Medium, light: d.PointLight | tuple[float, float]) -> d
     return scene.sphere((0.5, 1.5, 0), light[0], d.Light(grey(light[1]))).done()
 
 
+BIG = (1.5, (1.6, 3.0, 0.0))
+"""Radius and place of a ball of light that fills much of what the fog beside it sees, and end of the ray at a wall."""
+WALL = 10.0
+
+
+def thin_before_wall(sigma: float) -> d.SceneDescription:
+    scene = Builder(radiometer((0, 0, 0), ALONG), medium=d.Medium(BLACK, grey(sigma)))
+    scene.mesh(quad((0, WALL, 0), (0, 0, 1), (1, 0, 0)), d.Lambert(BLACK))
+    return scene.sphere(BIG[1], BIG[0], d.Light(WHITE)).done()
+
+
 def slab(c: float, depth: float | None, mu: float, through: bool = False) -> d.SceneDescription:
     """A slab of fog of sigma_t 1 between two vast boxes of glass of index 1 (fog fills all space outside glass), or a
     half space; a sheet of light in the upper box close to it. By reciprocity a camera beneath the sheet sees the albedo
@@ -163,6 +174,19 @@ def scattered_once() -> list[Case]:
                 within=0.03,
                 rounding=1e-5,
                 quick=radius == 1e-3,
+            )
+        )
+    for sigma in (1e-8, 1e-9):
+        result.append(
+            picture(
+                f"scattered once before a wall, depth {sigma * WALL:g}, a light that fills much of the view",
+                partial(thin_before_wall, sigma),
+                exact.sphere_airlight(sigma, sigma, 0, *BIG, ALONG, WALL),
+                max_scatter=1,
+                within=0.02,
+                quick=sigma == 1e-8,
+                most_seeds=MOST_SEEDS,
+                integrators=("path",),  # free flights of the other one do not end within 1e7 samples
             )
         )
     for power in (-30, 30):

@@ -3,8 +3,9 @@
 
 import numpy as np
 import pytest
+from scipy import integrate
 
-from tests.check import formulas
+from tests.check import fog, formulas
 from tests.render import closed_forms as exact
 
 SIGMAS = 4.5
@@ -49,6 +50,21 @@ def test_endless_fog(c: float, r: float) -> None:
 def test_endless_white_fog() -> None:
     """The limit: what is left is of the order of the root of 3 (1 - c)."""
     assert formulas.endless_fluence(1) == pytest.approx(formulas.infinite_fluence_modes(1 - 1e-10, 1), rel=4e-5)
+
+
+def test_thin_fog_before_a_wall() -> None:
+    """Two quadratures over the ball of light against the solid angle that it fills, in closed form, along the ray."""
+    radius, center = fog.BIG
+
+    def share(t: float) -> float:
+        """Of all directions at t."""
+        sine = radius / np.hypot(center[0], center[1] - t)
+        return float(sine**2 / (1 + np.sqrt(1 - sine**2)) / 2)
+
+    integral = integrate.quad(share, 0, fog.WALL, points=[2.0, 3.0, 4.0], epsrel=1e-11)[0]
+    sigma = 1e-8
+    airlight = exact.sphere_airlight(sigma, sigma, 0, radius, center, fog.ALONG, fog.WALL)
+    assert airlight / sigma == pytest.approx(integral, rel=2e-7)  # the depth is 1e-7
 
 
 @pytest.mark.parametrize(("c", "depth", "mu"), [(0.9, 1.0, 0.5), (1.0, 10.0, 1.0)])

@@ -34,8 +34,12 @@ void PathSample::sample_lights_along(const PathState &state, float end, const Ho
             continue;
         float weight = 1;
         if (!light->delta && !pool_) { // a pool's gathers are not lit by chance
-            const float p_distance =
+            float p_distance =
                 split ? collision_pdf(fog, state.beta, end, at.t) : free_flight_pdf(fog, state.beta, at.t);
+            if (p_distance > 0) { // of the paths that scatter there roulette leaves this part
+                const Rgb at_collision = state.beta * fog.sigma_s * fog.transmittance(at.t) * (1 / p_distance);
+                p_distance *= survival(at_collision, state.exempt, x);
+            }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
         const Rgb value = state.beta * unshadowed * weight;
@@ -68,24 +72,19 @@ void PathSample::scatter_in_fog(const PathState &state, float end, const Homogen
     PathState next = state;
     next.beta *= weight;
     const Vec3f x = state.ray.origin + state.ray.direction * t;
-    if (!lights_along(state))
+    const bool along = lights_along(state);
+    if (!along)
         sample_light_in_fog(next, x, fog, true);
+    else // roulette is part of how light is met by chance: else thin fog keeps a share of it for one sample in millions
+        pdf *= survival(next.beta, next.exempt, x);
     if (!survives(next, x))
         return;
     const bool camera = state.depth == 0;
     const PhaseSample s = HenyeyGreenstein{fog.g}.sample(state.ray.direction, camera ? sampler_.stratified_2d(kSetPhase)
                                                                                      : sampler_.next_2d());
     next.ray = {x, s.direction};
-    next.origin = {DirectionOrigin::Kind::fog,
-                   state.direct_view(),
-                   lights_along(state),
-                   s.pdf,
-                   x,
-                   state.ray.origin,
-                   state.ray.direction,
-                   end,
-                   t,
-                   pdf};
+    next.origin = {DirectionOrigin::Kind::fog, state.direct_view(), along, s.pdf, x,
+                   state.ray.origin,           state.ray.direction, end,   t,     pdf};
     ++next.depth;
     ++next.scatter;
     next.chain = 0;

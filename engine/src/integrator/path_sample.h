@@ -159,6 +159,8 @@ class PathSample {
     /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow
     /// without bound.
     bool survives(PathState &state, const Vec3f &x);
+    /// The chance of that, for a path of throughput beta at x.
+    float survival(const Rgb &beta, float exempt, const Vec3f &x) const;
     /// The same for one more mirror or glass.
     bool survives_chain(PathState &state);
     void push(const PathState &state) { stack_.push_back(state); }

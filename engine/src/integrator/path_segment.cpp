@@ -131,11 +131,16 @@ bool PathSample::occluded(const Vec3f &origin, const LightSample &light, float m
     return scene_.accel->occluded({origin, light.direction, distance}, light.ignored_sphere);
 }
 
+float PathSample::survival(const Rgb &beta, float exempt, const Vec3f &x) const {
+    const float weight = max_component(beta) / exempt * surroundings_importance(scene_, x);
+    return weight > 0 ? std::min(weight, 1.0f) : 0; // NaN does not live on
+}
+
 bool PathSample::survives(PathState &state, const Vec3f &x) {
-    const float weight = max_component(state.beta) / state.exempt * surroundings_importance(scene_, x);
+    const float weight = survival(state.beta, state.exempt, x);
     if (!(weight > 0))
         return false;
-    if (weight >= 1)
+    if (weight == 1)
         return true;
     if (sampler_.next_1d() >= weight)
         return false;
