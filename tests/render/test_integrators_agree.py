@@ -107,6 +107,16 @@ def light_by_way_of_metal() -> Builder:
     return scene.sphere((-1, 4, 1.2), 0.9, d.Light(grey(10)))
 
 
+def metal_seen_in_a_mirror() -> Builder:
+    """The same seen in a mirror, where nothing is splatted: what no vertex holds of it is brought by paths alone."""
+    scene = Builder(camera((3, -2, 2.2), (3, -4, 2.2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
+    scene.mesh(floor(0, 8, (0, 4)), d.Conductor(0.1, f0=WHITE)).mesh(
+        quad((3, -4, 2.2), (2, 0, 0), (0, 0, 2)), d.Mirror(WHITE)
+    )
+    scene.mesh(quad((0.7, 4, 3), (0, 6, 0), (0, 0, 2.4)), d.Lambert(grey(0)))
+    return scene.sphere((-1, 4, 1.2), 0.9, d.Light(grey(10)))
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -120,6 +130,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "smooth metal": lambda: field(d.Medium(grey(0.01), grey(0.06)), d.Conductor(0.05, f0=grey(0.8))),
     "glass": glass_in_fog,
     "light by way of metal": light_by_way_of_metal,
+    "light by way of metal, in a mirror": metal_seen_in_a_mirror,
     "glints through a lens": glints_through_a_lens,
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
