@@ -119,6 +119,12 @@ def cases() -> list[Case]:
             0.99**200,
             within=0.05,
         ),
+        picture(
+            "mirror corridor, 320 bounces, the last of them by roulette",  # long chains of mirrors are thinned
+            lambda: corridor(320, d.Mirror((1, 0.999, 0.99))),
+            np.array([1, 0.999, 0.99]) ** 320,
+            within=0.1,
+        ),
         picture("box of albedo 0.9 that shines", lambda: shining_box(0.9), 1, within=0.05, quick=True),
         picture("box of albedo 0.999 that shines", lambda: shining_box(0.999), 1, within=0.1),
     ]

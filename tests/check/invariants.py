@@ -105,14 +105,15 @@ def flushed_to_zero() -> Iterator[None]:
 
 
 def in_flushing_host(integrator: str, clock: Clock) -> Estimate:
-    scene = Scene(fog.light_through(d.Medium(grey(10), BLACK)))
+    description = fog.light_through(d.Medium(grey(10), BLACK))
 
     def estimate(seed: int) -> float:
-        with Render(scene, integrator=integrator, samples=2, seed=seed, threads=1) as render:
-            with flushed_to_zero():
-                render.run()
-            clock.add(render.poll().cpu_seconds)
-            return float(render.read().mean(dtype=np.float64))
+        with flushed_to_zero():
+            scene = Scene(description)
+            with Render(scene, integrator=integrator, samples=2, seed=seed, threads=1) as render:
+                clock.add(render.run().poll().cpu_seconds)
+                picture = render.read()
+        return float(picture.mean(dtype=np.float64))
 
     return estimate
 
