@@ -27,7 +27,13 @@ using RenderHandle = std::unique_ptr<glimmer_render, Destroy<glimmer_render_dest
 inline void check(glimmer_result result, const std::string &where) {
     if (result == GLIMMER_OK)
         return;
-    const std::string message = where + ": " + glimmer_last_error();
+    std::string what = glimmer_last_error();
+    // The engine names the part of the scene that `where` ends with: once is enough.
+    const size_t mark = where.rfind(": ");
+    const std::string part = (mark == std::string::npos ? where : where.substr(mark + 2)) + ": ";
+    if (what.starts_with(part))
+        what.erase(0, part.size());
+    const std::string message = where + ": " + what;
     if (result == GLIMMER_INVALID_ARGUMENT)
         throw InputError(message);
     throw ResultError(message);

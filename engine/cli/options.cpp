@@ -94,7 +94,10 @@ MergeOptions parse_merge(const std::vector<std::string> &arguments, std::optiona
     std::string output;
     CLI::App app("Joins renders of one scene with different seeds into one: the mean of all their samples.",
                  "glimmer merge");
-    app.add_option("PICTURE", inputs, "two or more .exr files that glimmer wrote")->required()->expected(2, 1 << 20);
+    app.add_option("PICTURE", inputs, "two or more .exr files that glimmer wrote")
+        ->required()
+        ->expected(-1) // the library's help would tell two from more as "x 2"
+        ->type_name("A.exr B.exr");
     app.add_option("-o,--output", output, "the .exr to write")->required()->type_name("C.exr");
     try {
         parse(app, arguments);
@@ -102,6 +105,8 @@ MergeOptions parse_merge(const std::vector<std::string> &arguments, std::optiona
         help = Information{app.help()};
         return options;
     }
+    if (inputs.size() < 2)
+        throw InputError("merge: " + in_quotes(inputs[0]) + " is one picture; two or more can be merged");
     options.inputs.assign(inputs.begin(), inputs.end());
     options.output = output;
     expect_writable("-o", options.output, {".exr"});

@@ -89,7 +89,7 @@ def same_bits(a: Exr, b: Exr) -> bool:
         (["scene.json", "-o", "out.exr", "--report", "scene.json"], 'glimmer: "scene.json" is named twice'),
         (["gone.json", "-o", "out.exr"], "gone.json: no such file"),
         (["merge"], "glimmer: "),
-        (["merge", "a.exr", "-o", "c.exr"], "glimmer: "),
+        (["merge", "a.exr", "-o", "c.exr"], 'merge: "a.exr" is one picture; two or more can be merged'),
         (["merge", "a.exr", "b.exr"], "glimmer: --output is required"),
         (["merge", "a.exr", "b.exr", "-o", "c.png"], '-o: "c.png" does not end in .exr'),
         (["merge", "a.exr", "b.exr", "-o", "c.exr"], "a.exr: no such file"),
@@ -115,7 +115,7 @@ def test_information() -> None:
     options = "--spp --time --error --integrator --seed --threads --tile --aov --checkpoint --checkpoint-interval"
     options += " --report --curve --quiet"
     assert usage.returncode == 0 and all(option in usage.stdout for option in options.split())
-    assert "PICTURE" in run_glimmer("merge", "--help").stdout
+    assert "PICTURE A.exr B.exr ..." in run_glimmer("merge", "--help").stdout
     integrators = run_glimmer("--list-integrators").stdout.splitlines()
     assert [line.split()[0] for line in integrators] == ["path", "report"]
     aovs = run_glimmer("--list-aovs").stdout.splitlines()

@@ -64,8 +64,13 @@ REMOVED = object()
 BAD = [
     # top level
     Bad(("glimmer",), REMOVED, 'the key "glimmer" is missing'),
-    Bad(("glimmer",), 2, "glimmer: 2 is not an integer from 1 to 1"),
+    Bad(("glimmer",), 2, "glimmer: 2 is not 1, the only value that is allowed here"),
     Bad(("film",), REMOVED, 'the key "film" is missing'),
+    Bad(
+        ("camera",),
+        {"to_world": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "fov_x": 60},
+        "camera: to_world must be rigid",
+    ),
     Bad(("camera",), REMOVED, 'the key "camera" is missing'),
     Bad(("extra",), 1, 'unknown key "extra"; allowed here are glimmer, film, camera, materials,'),
     Bad(("objects",), {}, "objects: an object is not a list [...]"),
@@ -268,21 +273,39 @@ def test_bad_value(bad: Bad, tmp_path: Path) -> None:
     assert message_of(tmp_path, content).startswith(bad.message)
 
 
+HERE = "is not allowed here; allowed is"
+KEY = "a key in double quotes"
+VALUE = "a number, a text in double quotes, true, false, null, [...] or {...}"
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "line 1, column 1: syntax error"),
-        ("{\n  ] ", "line 2, column 3: syntax error"),
+        ("", f"line 1, column 1: syntax error: the end of the file {HERE} {VALUE}"),
+        ("{\n  ] ", f"line 2, column 3: syntax error: ']' {HERE} {KEY}"),
         ('{"glimmer": 1, "glimmer": 1}', 'key "glimmer" stands twice'),
         ('{"materials": {"a": {"type": "null", "type": "null"}}}', 'materials.a: key "type" stands twice'),
         ('{"objects": [{}, {"a": 1, "a": 2}]}', 'objects[1]: key "a" stands twice'),
         ("[]", "a list of 0 is not a scene, which is an object {...}"),
-        ('{"glimmer": NaN}', "line 1, column 13: syntax error"),
-        ('{"glimmer": Infinity}', "line 1, column 13: syntax error"),
+        ('{"glimmer": NaN}', f'glimmer: line 1, column 13: syntax error: "N" {HERE} {VALUE}'),
+        ('{"glimmer": Infinity}', f'glimmer: line 1, column 13: syntax error: "I" {HERE} {VALUE}'),
         ('{"glimmer": 1e999}', "the number before character 17 is too large"),
         ('{"a": ' + "[" * 100 + "]" * 100 + "}", "a" + "[0]" * 63 + ": nested too deeply; 64 levels are allowed"),
         ('{"a": "\xff"}', None),
-        ('{"glimmer": 1} x', "line 1, column 16: syntax error"),
+        ('{"glimmer": 1} x', f'line 1, column 16: syntax error: "x" {HERE} nothing more, after the closing brace'),
+        (
+            '{"film": {"width": 4 "height": 2}}',
+            f"film.width: line 1, column 29: syntax error: a text {HERE} a comma",
+        ),
+        ('{"film": {"width": 4,,}}', f"film.width: line 1, column 22: syntax error: ',' {HERE} {KEY}"),
+        ('{"film": {"width" 4}}', f"film.width: line 1, column 19: syntax error: a number {HERE} a colon"),
+        ('{"film": {"width": 4, }}', f"film.width: line 1, column 23: syntax error: '}}' {HERE} {KEY}"),
+        ('{"up": [0, 1 2]}', f"up[2]: line 1, column 14: syntax error: a number {HERE} a comma or a closing bracket"),
+        ('{"glimmer": 1, // c\n}', f'glimmer: line 1, column 16: syntax error: "/" {HERE} {KEY}'),
+        ("{'glimmer': 1}", f'line 1, column 2: syntax error: "\'" {HERE} {KEY}'),
+        ('{"a": 1.}', "a: line 1, column 9: syntax error: invalid number; expected digit after '.'"),
+        ('{"a": {"b": "\\q"}}', "a.b: line 1, column 15: syntax error: forbidden character after a backslash; allowed"),
+        ('{"film": {"width": 4', f"film.width: line 1, column 21: syntax error: the end of the file {HERE} a comma or"),
     ],
     ids=[
         "empty",
@@ -297,6 +320,16 @@ def test_bad_value(bad: Bad, tmp_path: Path) -> None:
         "deep",
         "latin1",
         "tail",
+        "no-comma",
+        "two-commas",
+        "no-colon",
+        "last-comma",
+        "list-no-comma",
+        "comment",
+        "single-quotes",
+        "number",
+        "escape",
+        "cut-off",
     ],
 )
 def test_bad_json(text: str, message: str | None, tmp_path: Path) -> None:

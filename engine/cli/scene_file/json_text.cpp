@@ -2,6 +2,7 @@
 #include "json_text.h"
 
 #include "errors.h"
+#include "json_syntax.h"
 #include "text.h"
 
 #include <algorithm>
@@ -51,7 +52,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     bool parse_error(size_t position, const std::string &, const nlohmann::detail::exception &error) override {
         if (dynamic_cast<const nlohmann::detail::out_of_range *>(&error) != nullptr)
             fail("the number before character " + std::to_string(position) + " is too large; up to 1.8e308 is allowed");
-        throw InputError(file_ + ": " + place(position) + ": " + syntax(error.what()));
+        const std::string where = path(true);
+        throw InputError(file_ + ": " + (where.empty() ? "" : where + ": ") + syntax(error.what(), position));
     }
 
   private:
@@ -62,13 +64,14 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     };
 
     /// Where the next value goes: in a list that is open, behind its elements; in those around it, at their last one.
-    std::string path() const {
+    /// with_key: and the last key of the object that is open, for a fault in its value or behind it.
+    std::string path(bool with_key = false) const {
         std::string result;
         for (const Level &level : levels_) {
             const bool is_innermost = &level == &levels_.back();
             if (level.container->is_array())
                 result = child_path(result, level.container->size() - (is_innermost ? 0 : 1));
-            else if (!is_innermost)
+            else if (!is_innermost || (with_key && !level.next_key.empty()))
                 result = child_path(result, level.next_key);
         }
         return result;
@@ -116,13 +119,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
                 ++line, column = 0;
         return "line " + std::to_string(line) + ", column " + std::to_string(column);
     }
-    /// The library's text, without its own tag and place.
-    static std::string syntax(std::string what) {
-        for (const char *mark : {"parse error", ": "}) {
-            if (const size_t at = what.find(mark); at != std::string::npos)
-                what = what.substr(at + std::string(mark).size());
-        }
-        return one_line(what);
+    std::string syntax(const std::string &what, size_t position) const {
+        return place(position) + ": " + describe_syntax_error(what, text_.substr(0, position));
     }
 
     Json &root_;

@@ -104,7 +104,8 @@ float Value::single(const Range &range) const {
 }
 
 int64_t Value::integer(int64_t low, int64_t high) const {
-    const std::string allowed = "an integer from " + std::to_string(low) + " to " + std::to_string(high);
+    const std::string allowed = low == high ? std::to_string(low) + ", the only value that is allowed here"
+                                            : "an integer from " + std::to_string(low) + " to " + std::to_string(high);
     int64_t value = 0;
     if (json_->is_number_unsigned()) {
         const uint64_t number = json_->get<uint64_t>();
