@@ -58,6 +58,9 @@ def picture(scene: Any, width: int, height: int, samples: int, exposure: float =
     cycles.volume_bounces = 32
     cycles.sample_clamp_indirect = 0.0
     cycles.blur_glossy = 0.0
+    cycles.light_sampling_threshold = 0.0
+    cycles.use_adaptive_sampling = False  # its stopping rule loses light
+    cycles.use_denoising = False  # Debian's Blender has no denoiser, and would not render
 
 
 def camera(scene: Any, origin: Color, target: Color, fov_x: float) -> Any:

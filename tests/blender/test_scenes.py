@@ -78,6 +78,14 @@ def test_the_file_is_what_the_script_builds(descriptions: dict[str, Any], name: 
 
 
 @pytest.mark.parametrize("name", SCENES)
+def test_cycles_can_render_it_and_cuts_nothing_off(descriptions: dict[str, Any], name: str) -> None:
+    """Debian's Blender is built without a denoiser and renders nothing that asks for one."""
+    cycles = descriptions[name]["file"]["cycles"]
+    assert not cycles["use_denoising"] and not cycles["use_adaptive_sampling"]
+    assert cycles["sample_clamp_indirect"] == cycles["blur_glossy"] == cycles["light_sampling_threshold"] == 0.0
+
+
+@pytest.mark.parametrize("name", SCENES)
 def test_files_are_small(name: str) -> None:
     assert (FOLDER / f"{name}.blend").stat().st_size < 1_000_000
 
