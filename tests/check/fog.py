@@ -44,8 +44,9 @@ def beside_ray(medium: d.Medium, light: d.PointLight | tuple[float, float]) -> d
 
 
 BIG = (1.5, (1.6, 3.0, 0.0))
-"""Radius and place of a ball of light that fills much of what the fog beside it sees, and end of the ray at a wall."""
+"""Radius and place of a ball of light that fills much of what the fog beside it sees."""
 WALL = 10.0
+"""Where the ray ends."""
 
 
 def thin_before_wall(sigma: float) -> d.SceneDescription:
