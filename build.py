@@ -379,14 +379,29 @@ def bench(blender: str | None, given: BenchOptions) -> None:
     run([*command, "--said", shlex.join(said)], env=host_environment(BUILD / "profile", executable))
 
 
-def check(quick: bool, integrator: str, only: str | None, report: Path | None) -> None:
+@dataclass(frozen=True)
+class CheckOptions:
+    quick: bool
+    integrator: str
+    only: str | None
+    cycles: bool
+    report: Path | None
+
+
+def check(blender: str | None, options: CheckOptions) -> None:
+    executable = setup(blender, ("build", "render", "test")) if options.cycles else None
+    if options.cycles and executable is None:
+        raise BuildError("--cycles needs a Blender, in which Cycles runs")
     install_packages(wanted_packages(("build", "test"), None))
     build()
-    options = [*(["--quick"] if quick else []), *(["--integrator", integrator] if integrator != "path" else [])]
-    options += ["--only", only] if only is not None else []
-    command: list[str | Path] = [virtual_environment("test"), "-m", "tests.check", *options]
-    command += ["--report", report] if report is not None else []
-    run([*command, "--said", shlex.join(["python3", "build.py", "check", *options])])
+    words = ["--quick"] if options.quick else []
+    words += ["--integrator", options.integrator] if options.integrator != "path" else []
+    words += ["--only", options.only] if options.only is not None else []
+    said = ["python3", "build.py", "check", *words, *(["--cycles"] if options.cycles else [])]
+    command: list[str | Path] = [virtual_environment("test"), "-m", "tests.check", *words]
+    command += ["--cycles", executable] if executable is not None else []
+    command += ["--report", options.report] if options.report is not None else []
+    run([*command, "--said", shlex.join(said)], env=own_python_first(executable))
 
 
 def addon_version() -> str:
@@ -487,11 +502,19 @@ def arguments() -> argparse.ArgumentParser:
     item.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="for the page and its plot (default: build/bench)"
     )
-    item = command("check", "Render stiff and extreme scenes whose pictures are known by a formula; print a table.")
+    item = command(
+        "check", "Render stiff and extreme scenes whose pictures are known by a formula; print a table.", True
+    )
     item.add_argument("--quick", action="store_true", help="the short tier, which the tests run too")
     item.add_argument("--integrator", choices=("path", "report"), default="path")
     item.add_argument("--only", metavar="TEXT", help="the cases whose name holds it")
-    item.add_argument("--report", type=Path, metavar="FOLDER", help="also write check.md and check.json there")
+    item.add_argument("--cycles", action="store_true", help="the cases that Cycles can express, in both")
+    item.add_argument(
+        "--report",
+        type=Path,
+        metavar="FOLDER",
+        help="also write check.md and check.json there; extremes.md of --cycles",
+    )
     command("lint", "Check style, types and compiler warnings: ruff, mypy, clang-format, -Werror.")
     command("package", "Make the add-on's zip, with the library inside; prints its path.")
     command("clean", "Remove build/.")
@@ -530,7 +553,7 @@ def main(argv: Sequence[str]) -> int:
             bench(given.blender, BenchOptions(given.quick, not given.no_cycles, given.scenes, given.peers, output))
         elif given.command == "check":
             report = given.report.absolute() if given.report else None
-            check(given.quick, given.integrator, given.only, report)
+            check(given.blender, CheckOptions(given.quick, given.integrator, given.only, given.cycles, report))
         elif given.command == "lint":
             lint()
         elif given.command == "package":

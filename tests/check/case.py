@@ -41,6 +41,8 @@ class Case:
     limit: Limit | None = None
     scene: Callable[[], SceneDescription] | None = None
     """What is rendered, where it is one scene."""
+    max_scatter: int = -1
+    """Of that."""
 
 
 def picture(
@@ -64,4 +66,4 @@ def picture(
         return lambda seed: pictures(seed).mean(axis=(0, 1))
 
     channels = np.broadcast_to(np.asarray(expected, np.float64), 3)
-    return Case(name, channels, measure, within, rounding, quick, most_seeds, integrators, limit, scene)
+    return Case(name, channels, measure, within, rounding, quick, most_seeds, integrators, limit, scene, max_scatter)

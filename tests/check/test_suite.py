@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tests.check import __main__ as command
+from tests.check import cycles
 from tests.check.case import Case, Estimate, Limit
 from tests.check.report import Setting, as_json, markdown
 from tests.check.run import LIMIT, STALE, Result, numbers, run
@@ -83,3 +85,40 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert only in capsys.readouterr().out
     assert only in (tmp_path / "check.md").read_text()
     assert json.loads((tmp_path / "check.json").read_text())["results"][0]["case"] == only
+
+
+# ---- beside Cycles -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("means", "right"),
+    [
+        (np.array([[1, 0.5, 0.999]] * 8), True),
+        (np.array([[1, 0.5, 0.99]] * 8), False),
+        (np.array([[1, 0.5, np.inf]] * 8), False),
+        (np.outer([0.1, 1.9] * 4, [1, 0.5, 1]), None),
+        (np.outer([0.1, 0.12] * 4, [1, 0.5, 1]), False),
+    ],
+)
+def test_verdict_on_cycles(means: NDArray[np.float64], right: bool | None) -> None:
+    case = Case("made up", (1, 0.5, 1), lambda integrator, clock: lambda seed: 0)
+    assert cycles.judge(case, means, 1e-4).right is right
+
+
+def test_choices_for_cycles() -> None:
+    """Each is one scene of the suite."""
+    assert all(cycles.chosen_case(choice).scene is not None for choice in cycles.CHOICES)
+
+
+def test_beside_cycles(blender: Path, tmp_path: Path) -> None:
+    """A lamp on a plate, and fog before a ball of light: both renderers know them."""
+    for only in ("R/d 0.0001", "absorption of depth 1"):
+        command.main(["--cycles", str(blender), "--only", only, "--report", str(tmp_path)])
+        page = (tmp_path / "extremes.md").read_text()
+        shares = [[float(cell.split()[0].strip("*")) for cell in row.split("|")[3:5]] for row in rows_of(page)]
+        assert shares[0] == pytest.approx([1, 1], abs=3e-3)
+
+
+def rows_of(page: str) -> list[str]:
+    """Of its table, the head left out."""
+    return [row for row in page.splitlines() if row.startswith("| ")][1:]
