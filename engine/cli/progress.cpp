@@ -85,8 +85,11 @@ void ProgressLine::clear() {
 }
 
 void ProgressLine::say(const std::string &line) {
-    if (quiet_)
-        return;
+    if (!quiet_)
+        complain(line);
+}
+
+void ProgressLine::complain(const std::string &line) {
     clear();
     std::fprintf(stderr, "%s\n", line.c_str());
 }

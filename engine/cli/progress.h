@@ -18,6 +18,8 @@ class ProgressLine {
     void update(const glimmer_progress &progress);
     /// A line that stays.
     void say(const std::string &line);
+    /// Also when it is quiet.
+    void complain(const std::string &line);
 
   private:
     void clear();

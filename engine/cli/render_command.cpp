@@ -163,7 +163,7 @@ int run_render(const RenderOptions &options) {
     if (progress.samples == 0) {
         if (!interrupted())
             throw ResultError(options.output.string() + ": not written: the render ended before its first sample");
-        line.say(options.output.string() + ": not written: interrupted before the first sample was finished");
+        line.complain(options.output.string() + ": not written: interrupted before the first sample was finished");
         return kInterrupted;
     }
     write_results(options, scene, render.get(), progress,

@@ -376,17 +376,23 @@ def test_resumed_render_has_the_same_bits(tmp_path: Path) -> None:
     assert list(tmp_path.glob("state*")) == [state]
 
 
+def wait_until_caught(process: "subprocess.Popen[str]") -> None:
+    """Until it catches signals: loading libraries takes its time."""
+    status = Path(f"/proc/{process.pid}/status")
+    for _ in range(30_000):
+        caught = next(line for line in status.read_text().splitlines() if line.startswith("SigCgt"))
+        if int(caught.split()[1], 16) >> (signal.SIGTERM - 1) & 1:
+            return
+        time.sleep(0.001)
+    raise AssertionError("it never caught signals")
+
+
 def start_endless(folder: Path, *options: Any) -> "subprocess.Popen[str]":
     """A render that would take days, some way in."""
     path = write_scene(folder, hazy_moon())
     command = [os.environ["GLIMMER_BIN"], path, "-o", folder / "out.exr", "--spp", 1_000_000_000, *options]
     process = subprocess.Popen(list(map(str, command)), stderr=subprocess.PIPE, text=True)
-    status = Path(f"/proc/{process.pid}/status")
-    for _ in range(3000):  # loading libraries takes its time
-        caught = next(line for line in status.read_text().splitlines() if line.startswith("SigCgt"))
-        if int(caught.split()[1], 16) >> (signal.SIGTERM - 1) & 1:
-            break
-        time.sleep(0.01)
+    wait_until_caught(process)
     time.sleep(1)
     assert process.poll() is None
     return process
@@ -434,6 +440,19 @@ def test_a_second_signal_that_is_meant_ends_at_once(tmp_path: Path) -> None:
             return
         assert process.returncode == 130
     raise AssertionError("a second signal after more than a second was ignored 20 times")
+
+
+def test_a_picture_that_is_not_written_is_told_of_in_any_case(tmp_path: Path) -> None:
+    content = scenes.changed(hazy_moon(), ("film",), {"width": 1000, "height": 1000})
+    words = [write_scene(tmp_path, content), "-o", tmp_path / "out.exr", "--threads", 1, "--quiet"]
+    command = list(map(str, [os.environ["GLIMMER_BIN"], *words]))
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    wait_until_caught(process)
+    process.send_signal(signal.SIGTERM)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert said == f"{tmp_path / 'out.exr'}: not written: interrupted before the first sample was finished\n"
+    assert not (tmp_path / "out.exr").exists()
 
 
 def test_resumed_after_interruption(tmp_path: Path) -> None:
