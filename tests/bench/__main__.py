@@ -46,20 +46,21 @@ class Plan:
     reference_runs: int  # a multiple of 3: a third of them for each part
 
 
-_OTHERS = (4, 16, 64, 256)
+_MORE, _FEWER = (4, 16, 64, 256), (2, 8, 32, 128)
+# On two quiet cores half an hour; with Mitsuba and LuxCore twice that.
 FULL = Plan(
     (240, 135),
-    {"path": (1, 4, 16, 64), "report": _OTHERS, "Cycles": _OTHERS, "mitsuba": _OTHERS, "luxcore": _OTHERS},
+    {"path": (1, 4, 16, 64), "report": _MORE, "Cycles": _FEWER, "mitsuba": _MORE, "luxcore": _FEWER},
     4,
     64,
     9,
 )
-_FEWER = (2, 8, 32, 128)
+# Four minutes; with the two peers ten.
 QUICK = Plan(
     (96, 54),
-    {"path": (1, 4, 16, 64), "report": _OTHERS, "Cycles": _FEWER, "mitsuba": _OTHERS, "luxcore": _FEWER},
+    {"path": (1, 4, 16, 64), "report": _FEWER, "Cycles": _FEWER, "mitsuba": _MORE, "luxcore": _FEWER},
     3,
-    48,
+    40,
     9,
 )
 
@@ -97,7 +98,8 @@ class Renderers:
 
     def runs(self, name: str, stage: Stage, plan: Plan) -> list[list[Run]]:
         """[repetition][level]"""
-        levels = plan.levels[name]
+        fewer = 1 if name == "path" else stage.scene.fewer
+        levels = [max(samples // fewer, 1) for samples in plan.levels[name]]
         wanted = [task for repetition in range(plan.repetitions) for task in tasks(levels, repetition)]
         if name in INTEGRATORS:
             return in_rows(Glimmer(self.glimmer, name).runs(stage, wanted), len(levels))

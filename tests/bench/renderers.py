@@ -40,12 +40,13 @@ class Task:
     seed: int
 
 
-def read_picture(path: Path) -> Picture:
+def read_picture(path: Path, layer: str = "") -> Picture:
+    """layer: as "stderr."; else the picture itself."""
     file = OpenImageIO.ImageInput.open(str(path))
     if file is None:
         raise BenchError(f"{path}: {OpenImageIO.geterror()}")
     try:
-        channels = [file.spec().channelnames.index(name) for name in "RGB"]
+        channels = [file.spec().channelnames.index(layer + name) for name in "RGB"]
         pixels = np.asarray(file.read_image(OpenImageIO.FLOAT), np.float32)
     finally:
         file.close()
