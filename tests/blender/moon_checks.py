@@ -69,6 +69,15 @@ def a_new_file_shows_field_and_moons() -> None:
         assert add_moons() == {"FINISHED"}
         _assert_field_and_moons_are_seen()
     bpy.ops.wm.read_factory_settings()
+    before = bpy.context.scene.camera.matrix_world.copy()
+    bpy.ops.ed.undo_push(message="Start")  # the background has no undo stack of its own accord
+    assert add_moons() == {"FINISHED"}
+    bpy.ops.ed.undo_push(message="Moons")
+    bpy.context.view_layer.update()
+    assert bpy.context.scene.camera.matrix_world != before
+    bpy.ops.ed.undo()
+    assert bpy.context.scene.camera.matrix_world == before and "Red Moon" not in bpy.data.objects
+    bpy.ops.wm.read_factory_settings()
     floor = bpy.ops.mesh.primitive_plane_add(size=100, location=(0, 0, 1))
     assert floor == {"FINISHED"} and add_moons() == {"FINISHED"}
     assert math.isclose(bpy.context.scene.camera.location.z, 3.5, abs_tol=1e-5)  # over what is there
