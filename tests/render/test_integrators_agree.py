@@ -99,9 +99,9 @@ def glints_through_a_lens() -> Builder:
     return scene.seen_by(replace(view, clip_start=0.5, clip_end=40), film)
 
 
-def light_by_way_of_metal() -> Builder:
+def light_by_way_of_metal(g: float = 0) -> Builder:
     """Fog that a screen hides from the light: half of what is seen was thrown there by smooth metal alone."""
-    scene = Builder(camera((3, -3, 2.2), (3, 4, 2.2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
+    scene = Builder(camera((3, -3, 2.2), (3, 4, 2.2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1), g))
     scene.mesh(floor(0, 8, (0, 4)), d.Conductor(0.03, f0=WHITE))
     scene.mesh(quad((0.7, 4, 3), (0, 6, 0), (0, 0, 2.4)), d.Lambert(grey(0)))
     return scene.sphere((-1, 4, 1.2), 0.9, d.Light(grey(10)))
@@ -131,6 +131,8 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "glass": glass_in_fog,
     "light by way of metal": light_by_way_of_metal,
     "light by way of metal, in a mirror": metal_seen_in_a_mirror,
+    "light by way of metal, forward": lambda: light_by_way_of_metal(0.4),
+    "far forward": lambda: field(d.Medium((0.0, 0.01, 0.02), (0.06, 0.05, 0.05), 0.85)),
     "glints through a lens": glints_through_a_lens,
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,

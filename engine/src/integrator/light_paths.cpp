@@ -101,8 +101,11 @@ class LightPath {
         const float weight = survive(path, x);
         if (weight == 0)
             return;
-        out_.fog.add(x, path.power);
         const Vec3f before = path.ray.direction;
+        if (scene_.medium->g == 0)
+            out_.fog.add(x, path.power);
+        else
+            out_.fog.add(x, path.power, before);
         split(path, weight, [&](Branch &next) {
             next.sharp = false;
             next.chain = 0;
@@ -267,19 +270,26 @@ float CameraImportance::operator()(const Vec3f &x) const {
     return sum;
 }
 
-std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
-                                       Sampler &sampler, RayCounter &rays) {
+std::vector<Vec3f> sample_seen_points(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
+                                      uint32_t count, Sampler &sampler, RayCounter &rays) {
+    std::vector<Vec3f> points;
     if (!scene.medium || !around_camera.empty())
-        return std::nullopt;
-    const auto pick = [&](uint32_t first, uint32_t count) {
-        return first + std::min(uint32_t(sampler.next_1d() * float(count)), count - 1);
+        return points;
+    const auto pick = [&](uint32_t first, uint32_t size) {
+        return first + std::min(uint32_t(sampler.next_1d() * float(size)), size - 1);
     };
-    const uint32_t x = pick(pixels.x, pixels.width), y = pick(pixels.y, pixels.height);
-    const CameraRay camera = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d());
-    const auto hit = scene.accel->intersect(camera.ray);
-    ++rays.rays;
-    const Collision c = sample_collision(*scene.medium, Rgb(1), hit ? hit->t : kInfinity, sampler);
-    return camera.ray.origin + camera.ray.direction * c.t;
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t x = pick(pixels.x, pixels.width), y = pick(pixels.y, pixels.height);
+        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
+        const auto hit = scene.accel->intersect(ray);
+        ++rays.rays;
+        const float u_channel = scene.medium->grey ? 0 : sampler.next_1d();
+        const uint64_t bits = ~0ull / count * i + sampler.next_bits() / count;
+        const Collision c = sample_collision(*scene.medium, Rgb(1), hit ? hit->t : kInfinity, u_channel, bits);
+        if (c.pdf > 0)
+            points.push_back(ray.origin + ray.direction * c.t);
+    }
+    return points;
 }
 
 LightVertices trace_light_paths(const Scene &scene, const CameraImportance &importance, const PoolSettings &settings,

@@ -13,14 +13,21 @@
 
 namespace glimmer {
 
-/// Power scattered by the fog at points, as a structure of arrays.
+/// Power scattered by the fog at points, as a structure of arrays. Fog that scatters evenly has no use for where it
+/// came from.
 struct FogVertices {
     std::vector<float> x, y, z, r, g, b;
+    std::vector<float> dx, dy, dz; ///< unit, of flight; empty where the fog scatters evenly
     size_t size() const { return x.size(); }
     void add(const Vec3f &position, const Rgb &power) {
         x.push_back(position.x), y.push_back(position.y), z.push_back(position.z);
         r.push_back(power.r), g.push_back(power.g), b.push_back(power.b);
     }
+    void add(const Vec3f &position, const Rgb &power, const Vec3f &direction) {
+        add(position, power);
+        dx.push_back(direction.x), dy.push_back(direction.y), dz.push_back(direction.z);
+    }
+    Vec3f direction(size_t i) const { return {dx[i], dy[i], dz[i]}; }
     Vec3f position(size_t i) const { return {x[i], y[i], z[i]}; }
     Rgb power(size_t i) const { return {r[i], g[i], b[i]}; }
 };
@@ -63,9 +70,10 @@ class CameraImportance {
     float kappa_ = 0, soften_ = 1;
 };
 
-/// One fog point on a random camera ray of the rectangle of pixels; nothing when the ray starts within glass.
-std::optional<Vec3f> sample_seen_point(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
-                                       Sampler &sampler, RayCounter &rays);
+/// Fog points on `count` random camera rays of the rectangle of pixels, each from another stratum of the distances at
+/// which the fog scatters; none where rays start within glass.
+std::vector<Vec3f> sample_seen_points(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,
+                                      uint32_t count, Sampler &sampler, RayCounter &rays);
 
 /// Traces settings.paths light paths; fewer, and of no use, once `stop` is set. The mean over passes of the vertices'
 /// power, anywhere, is the power that is scattered there.

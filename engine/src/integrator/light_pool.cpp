@@ -2,6 +2,7 @@
 #include "integrator/light_pool.h"
 
 #include "integrator/surroundings.h"
+#include "medium/phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,14 @@ constexpr uint32_t kPixelsPerPath = 6;     // light paths cost about a tenth of 
 constexpr uint32_t kMostPaths = 24576; // every block looks at all their vertices: beyond, that is what takes the time
 constexpr uint32_t kMostVertices = 1u << 18; // of a pass, about: for the same reason, and for memory
 constexpr float kDense = 50, kDiffuse = 5;   // radii of the scene in mean free paths, and in lengths of diffusion
+constexpr float kMostForward = 0.9f, kMostBackward = -0.6f; // beyond, peaks that meet outweigh what vertices save
 constexpr uint64_t kPassStream = 0x9a55, kBlockStream = 0xb10c,
                    kPilotStream = 0x9107; // keep the streams of random numbers apart
 
 struct LightPass final : PassData {
     size_t bytes() const override {
-        return vertices.fog.x.capacity() * 6 * sizeof(float) + vertices.surface.capacity() * sizeof(SurfaceVertex) +
-               vertices.splats.capacity() * sizeof(Splat);
+        return (vertices.fog.x.capacity() * 6 + vertices.fog.dx.capacity() * 3) * sizeof(float) +
+               vertices.surface.capacity() * sizeof(SurfaceVertex) + vertices.splats.capacity() * sizeof(Splat);
     }
     uint64_t seed, sample;
     LightVertices vertices;
@@ -77,6 +79,8 @@ void LightPool::set_bounds() {
         const float density = densities[densities.size() / 2] * float(settings_.paths) / float(pilot_settings.paths);
         bound = std::min(std::sqrt(sigma / (4 * kPi * density)), 1 / sigma);
     }
+    // Two peaks of a phase function that meet are rarer and brighter: d0^2 grows as the root of the peak.
+    bound *= std::pow(HenyeyGreenstein{scene_.medium->g}.peak() / kIsotropicPhase, 0.25f);
     settings_.fog_bound = bound;
     settings_.surface_bound = 2 * bound;
     std::vector<float> distances;
@@ -90,11 +94,7 @@ void LightPool::set_bounds() {
 
 std::vector<Vec3f> LightPool::seen_points(const Rectangle &pixels, uint32_t count, Sampler &sampler,
                                           RayCounter &rays) const {
-    std::vector<Vec3f> points;
-    for (uint32_t i = 0; i < count; ++i)
-        if (const auto x = sample_seen_point(scene_, pixels, around_camera_, sampler, rays))
-            points.push_back(*x);
-    return points;
+    return sample_seen_points(scene_, pixels, around_camera_, count, sampler, rays);
 }
 
 std::unique_ptr<const PassData> LightPool::prepare_pass(uint64_t seed, uint64_t sample, const std::atomic<bool> &stop,
@@ -127,8 +127,9 @@ std::unique_ptr<const BlockData> LightPool::prepare_block(const PassData &data, 
 std::unique_ptr<const LightPool> plan_light_pool(const Scene &scene, const DepthLimits &limits,
                                                  const GlassStack &around_camera) {
     const DepthLimits none;
-    if (!scene.medium || !scene.medium->scatters() || scene.medium->g != 0 || !around_camera.empty() ||
-        limits.depth != none.depth || limits.scatter != none.scatter)
+    if (!scene.medium || !scene.medium->scatters() || scene.medium->g > kMostForward ||
+        scene.medium->g < kMostBackward || !around_camera.empty() || limits.depth != none.depth ||
+        limits.scatter != none.scatter)
         return nullptr;
     if (scene.bounds_radius * max_component(scene.medium->sigma_t) > kDense &&
         scene.bounds_radius * diffusion(*scene.medium) < kDiffuse)

@@ -38,9 +38,10 @@ class LightPool {
     PoolSettings settings_;
 };
 
-/// Null where plain paths take over: no fog that scatters, fog that scatters unevenly (the peak of a phase function
-/// unbounds the connections), a camera within glass, limits on the depth, nothing finite that shines; fog so dense and
-/// white that light wanders through all of the scene, where few of a path's thousands of vertices are near the camera.
+/// Null where plain paths take over: no fog that scatters, fog that scatters by a narrow peak (Henyey-Greenstein
+/// beyond g = -0.6 and 0.9, which all but unbounds the connections), a camera within glass, limits on the depth,
+/// nothing finite that shines; fog so dense and white that light wanders through all of the scene, where few of a
+/// path's thousands of vertices are near the camera.
 std::unique_ptr<const LightPool> plan_light_pool(const Scene &scene, const DepthLimits &limits,
                                                  const GlassStack &around_camera);
 

@@ -2,7 +2,7 @@
 // Light scattered more than once, from the vertices of light paths (light_pool.h).
 #include "integrator/held_share.h"
 #include "integrator/path_sample.h"
-#include "sampling/warp.h"
+#include "medium/phase.h"
 
 #include <cmath>
 
@@ -30,12 +30,12 @@ void PathSample::gather(PathState &state, float scale, float splatted) {
     if (!survives(state, x))
         return;
     state.exempt *= scale;
-    const Rgb value = state.beta * pool_->pool.gather(x, sampler_, rays_);
+    const Rgb value = state.beta * pool_->pool.gather(x, state.ray.direction, sampler_, rays_);
     (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
     const float u = sampler_.next_1d(), k = std::sqrt((1 - u) / std::max(u, 1e-12f)); // P(k d0 > d) = 1 - w(d)
     state.fog_reach = k * pool_->settings.fog_bound;
     state.surface_reach = k * pool_->settings.surface_bound;
-    state.ray = {x, sample_uniform_sphere(sampler_.next_2d())};
+    state.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(state.ray.direction, sampler_.next_2d()).direction};
     state.splatted = splatted > 0 && sampler_.next_1d() < splatted;
     state.origin = {};
     ++state.depth;

@@ -2,6 +2,7 @@
 #include "integrator/splat.h"
 
 #include "medium/equiangular.h"
+#include "medium/phase.h"
 #include "sampling/warp.h"
 #include "scene/camera_sample.h"
 
@@ -49,9 +50,9 @@ Range seen_part(const Scene &scene, const Ray &beam) {
     return seen;
 }
 
-/// A point that scatters `power` evenly.
-void splat_point(const Scene &scene, const Vec3f &x, const Rgb &power, const PoolSettings &settings, Sampler &sampler,
-                 RayCounter &rays, std::vector<Splat> &out) {
+/// A point that scatters `power`, which arrives along `direction`.
+void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, const Rgb &power,
+                 const PoolSettings &settings, Sampler &sampler, RayCounter &rays, std::vector<Splat> &out) {
     const Camera &camera = scene.camera;
     const Vec2f u_lens = sampler.next_2d();
     const auto seen = camera.project(x, camera.lens_radius > 0 ? sample_uniform_disk(u_lens) : Vec2f{});
@@ -70,7 +71,8 @@ void splat_point(const Scene &scene, const Vec3f &x, const Rgb &power, const Poo
     const float pixel_angle =
         seen->solid_angle / (float(film.width) * float(film.height)); // at this place, if the filter were a point
     const Rgb radiance = power * scene.medium->transmittance(seen->t) *
-                         (splat_share(seen->t, settings) / (4 * kPi * seen->distance * seen->distance * pixel_angle));
+                         (HenyeyGreenstein{scene.medium->g}.eval(seen->direction, -direction) *
+                          splat_share(seen->t, settings) / (seen->distance * seen->distance * pixel_angle));
     if (is_black(radiance))
         return;
     bool visible = false;
@@ -110,7 +112,7 @@ void splat(const Scene &scene, const Beam &beam, const PoolSettings &settings, S
         if (!(pdf > 0) || !(t >= 0 && t < kInfinity))
             continue;
         const float share = beam.specular ? beam.unheld : beam.unheld * connected_share(t, settings.surface_bound);
-        splat_point(scene, beam.ray.origin + beam.ray.direction * t,
+        splat_point(scene, beam.ray.origin + beam.ray.direction * t, beam.ray.direction,
                     beam.power * fog.sigma_s * fog.transmittance(t) * (share / pdf), settings, sampler, rays, out);
     }
 }

@@ -2,6 +2,7 @@
 #include "integrator/vertex_pool.h"
 
 #include "math/simd.h"
+#include "medium/phase.h"
 
 #include <array>
 #include <cmath>
@@ -13,7 +14,19 @@ namespace {
 constexpr float kGuided = 0.9f; // of the picks by target, the rest by power: no vertex has probability 0
 constexpr float kSoften = 3;    // targets see bounds this much larger, for points that the representatives are not
 constexpr uint32_t kMostPicks = 512;
-constexpr float kIsotropic = 1 / (4 * kPi);
+
+/// The Henyey-Greenstein phase function, eight cosines between directions of propagation at a time.
+class Phase8 {
+  public:
+    explicit Phase8(float g) : constant_(1 + g * g), slope_(2 * g), scale_((1 - g) * (1 + g) * kIsotropicPhase) {}
+    Float8 operator()(Float8 cosine) const {
+        const Float8 d2 = max(constant_ - slope_ * cosine, Float8(1e-12f));
+        return scale_ / (d2 * sqrt(d2));
+    }
+
+  private:
+    Float8 constant_, slope_, scale_;
+};
 
 float mean_extinction(const Homogeneous &medium) {
     return (medium.sigma_t.r + medium.sigma_t.g + medium.sigma_t.b) / 3;
@@ -61,6 +74,8 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
     std::vector<float> targets(n + 8), powers(n);
     const Float8 sigma(-mean_extinction(*scene_.medium)),
         soften(kSoften * kSoften * settings_.fog_bound * settings_.fog_bound);
+    const bool even = scene_.medium->g == 0;
+    const Phase8 phase(scene_.medium->g);
     size_t j = 0;
     for (; j + 8 <= n; j += 8) {
         const Float8 x = Float8::load(&vertices.x[j]), y = Float8::load(&vertices.y[j]),
@@ -68,8 +83,14 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
         Float8 near;
         for (const Vec3f &q : points) {
             const Float8 dx = x - Float8(q.x), dy = y - Float8(q.y), dz = z - Float8(q.z);
-            const Float8 d2 = dx * dx + dy * dy + dz * dz;
-            near = near + exp(sigma * sqrt(d2)) / (d2 + soften);
+            const Float8 d2 = dx * dx + dy * dy + dz * dz, d = sqrt(d2);
+            Float8 value = exp(sigma * d) / (d2 + soften);
+            if (!even) {
+                const Float8 along = Float8::load(&vertices.dx[j]) * dx + Float8::load(&vertices.dy[j]) * dy +
+                                     Float8::load(&vertices.dz[j]) * dz;
+                value = value * phase(Float8() - along / max(d, Float8(1e-30f)));
+            }
+            near = near + value;
         }
         near.store(&targets[j]);
     }
@@ -89,7 +110,11 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
     });
     for (uint32_t s = 0; s < settings_.sub_pools; ++s)
         for (uint32_t k = s; k < count; k += settings_.sub_pools)
-            fog_.add(vertices.position(chosen[k]), vertices.power(chosen[k]) * scale[k]);
+            if (even)
+                fog_.add(vertices.position(chosen[k]), vertices.power(chosen[k]) * scale[k]);
+            else
+                fog_.add(vertices.position(chosen[k]), vertices.power(chosen[k]) * scale[k],
+                         vertices.direction(chosen[k]));
 }
 
 void VertexPool::pick_surface(const std::vector<SurfaceVertex> &vertices, const std::vector<Vec3f> &points,
@@ -127,8 +152,10 @@ void VertexPool::pick_surface(const std::vector<SurfaceVertex> &vertices, const 
             surface_.push_back(picked[k]);
 }
 
-Rgb VertexPool::gather(const Vec3f &x, Sampler &sampler, RayCounter &rays) const {
+Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayCounter &rays) const {
     const Homogeneous &medium = *scene_.medium;
+    const HenyeyGreenstein phase{medium.g};
+    const bool even = medium.g == 0;
     const uint32_t sub_pool =
         std::min(uint32_t(sampler.next_1d() * float(settings_.sub_pools)), settings_.sub_pools - 1);
     alignas(32) std::array<float, kMostPicks> fog_parts;
@@ -142,12 +169,23 @@ Rgb VertexPool::gather(const Vec3f &x, Sampler &sampler, RayCounter &rays) const
         const Float8 px(x.x), py(x.y), pz(x.z), bound(settings_.fog_bound * settings_.fog_bound);
         const Float8 sr(-medium.sigma_t.r), sg(-medium.sigma_t.g), sb(-medium.sigma_t.b);
         const Float8 lr(0.2126f), lg(0.7152f), lb(0.0722f);
+        const Float8 sx(seen.x), sy(seen.y), sz(seen.z);
+        const Phase8 phases(medium.g);
         Float8 red, green, blue, part_sum;
         for (size_t k = 0; k < fog_count; k += 8) {
             const size_t j = fog_first + k;
             const Float8 dx = Float8::load(&fog_.x[j]) - px, dy = Float8::load(&fog_.y[j]) - py,
                          dz = Float8::load(&fog_.z[j]) - pz;
-            const Float8 d2 = dx * dx + dy * dy + dz * dz, d = sqrt(d2), inverse = Float8(1.0f) / (d2 + bound);
+            const Float8 d2 = dx * dx + dy * dy + dz * dz, d = sqrt(d2);
+            Float8 inverse = Float8(kIsotropicPhase * kIsotropicPhase) / (d2 + bound);
+            if (!even) {
+                const Float8 to_vertex = Float8(1.0f) / max(d, Float8(1e-30f));
+                const Float8 here = (dx * sx + dy * sy + dz * sz) * to_vertex;
+                const Float8 there =
+                    (dx * Float8::load(&fog_.dx[j]) + dy * Float8::load(&fog_.dy[j]) + dz * Float8::load(&fog_.dz[j])) *
+                    to_vertex;
+                inverse = phases(here) * phases(Float8() - there) / (d2 + bound);
+            }
             const Float8 er = exp(sr * d) * inverse;
             const Float8 r = er * Float8::load(&fog_.r[j]);
             const Float8 g = (medium.grey ? er : exp(sg * d) * inverse) * Float8::load(&fog_.g[j]);
@@ -156,8 +194,8 @@ Rgb VertexPool::gather(const Vec3f &x, Sampler &sampler, RayCounter &rays) const
             part.store(&fog_parts[k]);
             red = red + r, green = green + g, blue = blue + b, part_sum = part_sum + part;
         }
-        total = Rgb(sum(red), sum(green), sum(blue)) * (kIsotropic * kIsotropic);
-        parts = sum(part_sum) * (kIsotropic * kIsotropic);
+        total = Rgb(sum(red), sum(green), sum(blue));
+        parts = sum(part_sum);
     }
     const size_t surface_count = surface_.empty() ? 0 : settings_.surface_picks;
     const SurfaceVertex *surface = surface_.data() + size_t(sub_pool) * settings_.surface_picks;
@@ -169,7 +207,8 @@ Rgb VertexPool::gather(const Vec3f &x, Sampler &sampler, RayCounter &rays) const
             continue;
         const float d2 = length_squared(to_point), d = std::sqrt(d2);
         const Connection c = connect(v, scene_.bsdf(scene_.materials[v.material]), to_point / d);
-        const float scale = c.held * kIsotropic / (d2 + settings_.surface_bound * settings_.surface_bound);
+        const float scale =
+            c.held * phase.eval(seen, -to_point / d) / (d2 + settings_.surface_bound * settings_.surface_bound);
         surface_values[k] = c.factor * v.power * medium.transmittance(d) * scale;
         surface_parts[k] = luminance(surface_values[k]);
         total += surface_values[k];
@@ -192,12 +231,12 @@ Rgb VertexPool::gather(const Vec3f &x, Sampler &sampler, RayCounter &rays) const
         left -= surface_parts[k];
     }
     size_t k = 0, last = 0;
-    for (float rest = left / (kIsotropic * kIsotropic); k < fog_count; ++k) {
+    for (; k < fog_count; ++k) {
         if (fog_parts[k] > 0)
             last = k;
-        if (fog_parts[k] > 0 && rest < fog_parts[k])
+        if (fog_parts[k] > 0 && left < fog_parts[k])
             break;
-        rest -= fog_parts[k];
+        left -= fog_parts[k];
     }
     if (fog_count == 0)
         return total;
@@ -207,9 +246,11 @@ Rgb VertexPool::gather(const Vec3f &x, Sampler &sampler, RayCounter &rays) const
     const float d = length(way);
     if (!(d > 0) || !scene_.accel->occluded({x, way / d, d}))
         return total;
-    const float scale = kIsotropic * kIsotropic / (d * d + settings_.fog_bound * settings_.fog_bound);
-    const Rgb value = fog_.power(j) * medium.transmittance(d) * scale;
-    return total - value * (parts / (fog_parts[k] * kIsotropic * kIsotropic));
+    const float phases =
+        even ? kIsotropicPhase * kIsotropicPhase : phase.eval(seen, way / d) * phase.eval(fog_.direction(j), -way / d);
+    const Rgb value =
+        fog_.power(j) * medium.transmittance(d) * (phases / (d * d + settings_.fog_bound * settings_.fog_bound));
+    return total - value * (parts / fog_parts[k]);
 }
 
 } // namespace glimmer

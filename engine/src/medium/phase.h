@@ -14,6 +14,8 @@ struct PhaseSample {
     float pdf;       ///< per solid angle; equals the phase function, so the weight is 1
 };
 
+inline constexpr float kIsotropicPhase = 1 / (4 * kPi);
+
 /// g in (-1, 1) is the mean cosine between the directions of propagation before and after: g > 0 scatters forward.
 /// (Toward the camera, wi = -direction of the light; mind the sign.) Its density is the phase function itself.
 struct HenyeyGreenstein {
@@ -27,6 +29,9 @@ struct HenyeyGreenstein {
     float eval(const Vec3f &before, const Vec3f &after) const {
         return from_tail(length_squared(g < 0 ? before + after : before - after) / 2);
     }
+
+    /// The largest value.
+    float peak() const { return from_tail(0); }
 
     /// Both 1 - cos and 1 + cos by inversion without cancellation: the textbook form divides by g and subtracts.
     PhaseSample sample(const Vec3f &before, Vec2f u) const {
