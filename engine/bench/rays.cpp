@@ -2,7 +2,7 @@
 // Rays against 20 000 instanced plates: Embree alone, Accel, and Accel with the surface that the integrators want of a
 // hit. The same rays for all: half from a camera, half scattered from random places between the plates.
 #include "geometry/accel.h"
-#include "sampling/hash.h"
+#include "inputs.h"
 #include "scene/scene.h"
 
 #include <benchmark/benchmark.h>
@@ -15,10 +15,6 @@ namespace {
 
 constexpr int kSide = 142; // plates along an edge of the field: 20 164
 constexpr size_t kRays = 1 << 16;
-
-float uniform(uint64_t seed, uint64_t i) {
-    return float(hash64(seed, i) >> 40) * 0x1p-24f;
-}
 
 /// A hexagonal prism of radius 1.
 std::shared_ptr<Mesh> plate() {
