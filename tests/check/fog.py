@@ -35,6 +35,20 @@ def furnace(sigma_s: d.Rgb, g: float = 0, objects: bool = False, size: int = 16)
     return scene.done()
 
 
+def shining_box() -> d.SceneDescription:
+    """Walls of albedo 0.9 around white fog: nine tenths of the light was thrown there by a wall."""
+    scene = Builder(camera((0.2, 0.1, 0.3), (2, 1, 0), 80), 8, 8, medium=d.Medium(BLACK, grey(0.4)))
+    return scene.mesh(box((-2, -2, -1), (2, 2, 3)), d.Lambert(grey(0.9), grey(0.1))).done()
+
+
+def over_metal(alpha: float) -> d.SceneDescription:
+    """White fog over a plate of metal that reflects all, in a ball of light: half of the fog's light comes from it.
+    Seen in a mirror, where light that smooth metal throws is met by paths alone."""
+    scene = Builder(camera((0, 1, 0.5), (0, 2, 0.5), 50), medium=d.Medium(BLACK, grey(0.5)))
+    scene.sphere((0, 0, 0), 2, d.Light(WHITE)).mesh(quad((0, 1.1, 0.5), (0.1, 0, 0), (0, 0, 0.1)), d.Mirror(WHITE))
+    return scene.mesh(quad((0, 0, -0.3), (2.5, 0, 0), (0, 2.5, 0)), d.Conductor(alpha, f0=WHITE)).done()
+
+
 def beside_ray(medium: d.Medium, light: d.PointLight | tuple[float, float]) -> d.SceneDescription:
     """A light beside the ray: a point, or a sphere of (radius, radiance) at (0.5, 1.5, 0)."""
     scene = Builder(radiometer((0, 0, 0), ALONG), medium=medium)
@@ -279,6 +293,14 @@ def white_furnaces() -> list[Case]:
         result.append(picture(f"furnace of white fog, g {g:g}", partial(furnace, grey(2), g), 1, within=0.05))
     result += [
         picture("furnace of white fog with objects", lambda: furnace(grey(1), 0, True), 1, within=0.03, quick=True),
+        picture("furnace of white fog between walls of albedo 0.9 that shine", shining_box, 1, within=0.05),
+        picture(
+            "furnace of white fog over smooth metal, in a mirror",
+            lambda: over_metal(1e-3),
+            1,
+            within=0.0125,
+            rounding=2 * formulas.metal_loss(1e-3),  # few paths meet it twice
+        ),
         picture("furnace of white fog, 30 deep, with objects", lambda: furnace(grey(7.5), 0, True, 8), 1, within=0.1),
         picture("furnace of white fog, three decades of colour", lambda: furnace((0.002, 0.06, 2)), 1, within=0.05),
     ]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import integrate
 
-from tests.render.closed_forms import gauss, henyey_greenstein
+from tests.render.closed_forms import gauss, ggx_albedo, henyey_greenstein
 
 Array = NDArray[Any]
 PI = np.pi
@@ -93,6 +93,13 @@ def ggx_albedo_walk(mu: float, alpha: float, samples: int, seed: int = 1) -> tup
     li = float(lam(np.array(mu)))
     weight[up] = (1 + li) / (1 + li + lam(o[up, 2]))
     return float(weight.mean()), float(weight.std() / np.sqrt(samples))
+
+
+@cache
+def metal_loss(alpha: float) -> float:
+    """Of uniform light, what single reflection by GGX of that alpha and F = 1 loses: 2 int (1 - albedo(mu)) mu dmu."""
+    mu, w = gauss(0, 1, 24)
+    return float(2 * sum(w * mu * (1 - np.array([ggx_albedo(float(m), alpha) for m in mu]))))
 
 
 # ---- Fog -----------------------------------------------------------------------------------------------------------
