@@ -161,7 +161,7 @@ def _about_peers(results: Sequence[SceneResult]) -> list[str]:
         "each instance; its set-up reads that, builds and compiles.",
         "luxcore": "LuxCore: PATHCPU with Sobol samples, 1024 bounces of each kind. Spheres are meshes of 2048 quads "
         "scaled to the sphere's area. Its metal has another masking, and a Fresnel factor that rises at grazing: where "
-        "there is metal, expect another picture.",
+        "there is metal, its picture is another by a percent or so.",
     }
     return [_bullet(text) for name, text in about.items() if name in names]
 

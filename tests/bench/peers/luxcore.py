@@ -46,14 +46,13 @@ def _material(name: str, material: Material) -> dict[str, Any]:
             f"{key}.emission": list(material.radiance),
         }
     # Fresnel's factor runs from the colour to 1 at grazing; a constant one it does not have.
-    root = math.sqrt(material.alpha)
     return {
         f"{key}.type": "metal2",
         f"{key}.fresnel": f"fresnel_{name}",
         f"scene.textures.fresnel_{name}.type": "fresnelcolor",
         f"scene.textures.fresnel_{name}.kr": list(material.reflectance),
-        f"{key}.uroughness": root,
-        f"{key}.vroughness": root,
+        f"{key}.uroughness": material.alpha,
+        f"{key}.vroughness": material.alpha,
     }
 
 
