@@ -324,6 +324,13 @@ def cases() -> list[Case]:
         picture(
             "a sealed ball of 2048 triangles", partial(sealed, octahedron((0, 0, 0), 2, 4)), 0, within=0, samples=4
         ),
+        picture(  # as many rays pass so close to an edge that Embree must not round it open
+            "a sealed ball of 524288 triangles",
+            lambda: sealed(octahedron((0, 0, 0), 2, 8)),
+            0,
+            within=0,
+            samples=64,
+        ),
         picture(
             "a sealed box beside a light of 1e12, under a sky of 1e12",
             partial(sealed, cube, 0, 1e12, 1e12),
