@@ -108,6 +108,7 @@ PACKAGES = (
     Package("libclang-rt-14-dev", "test", "their runtime"),
     Package("xvfb", "test", "a display for Blender's window"),
     Package("xdotool", "test", "keys for that window"),
+    Package("imagemagick", "test", "pictures of that window"),
     Package("libgl1-mesa-dri", "test", "draws it"),
     Package("libx11-6", "test", "the bpy wheel"),
     Package("libxrender1", "test", "the bpy wheel"),

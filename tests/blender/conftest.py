@@ -34,7 +34,7 @@ def host(request: pytest.FixtureRequest, library_dir: Path, tmp_path_factory: py
 @pytest.fixture(scope="module")
 def display() -> Iterator[str]:
     """An X server of our own."""
-    for program in ("Xvfb", "xdotool"):
+    for program in ("Xvfb", "xdotool", "import"):
         assert shutil.which(program), f"{program} is missing; run the tests by `python3 build.py test`"
     read_end, write_end = os.pipe()
     command = ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x800x24", "+extension", "GLX"]
