@@ -4,6 +4,7 @@ the C API, and the command. Builds the presets, which takes minutes."""
 
 import os
 import subprocess
+import sys
 import zipfile
 from collections.abc import Callable
 from functools import cache
@@ -164,3 +165,21 @@ def test_command(sanitized: Callable[[str], None], tmp_path: Path) -> None:
 def test_command_for_long(preset: str, sanitized: Callable[[str], None], tmp_path: Path) -> None:
     sanitized(preset)
     render_all(some_scenes(tmp_path), tmp_path, ("path", "report"))
+
+
+@pytest.mark.full
+def test_sessions_under_tsan(repository: Path) -> None:
+    """Starting, pausing, cancelling and reading while worker threads render, through the C API in this Python."""
+    library = built(repository, "tsan").with_name("lib")
+    runtime = subprocess.run(["g++", "-print-file-name=libtsan.so"], capture_output=True, text=True, check=True)
+    environment = {
+        **os.environ,
+        "GLIMMER_LIB_DIR": os.fspath(library),
+        "LD_PRELOAD": os.fspath(Path(runtime.stdout.strip()).resolve()),
+        "TSAN_OPTIONS": f"exitcode=66:suppressions={repository / 'engine' / 'tsan.supp'}",
+        "OPENBLAS_NUM_THREADS": "1",  # its own threads were built without the sanitizer
+    }
+    tests = [f"tests/engine/test_{name}.py" for name in ("session", "saved_state")]
+    command = [sys.executable, "-m", "pytest", "-q", "-s", "-p", "no:cacheprovider", *tests]
+    done = subprocess.run(command, cwd=repository, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and " passed" in done.stdout, done.stdout[-4000:] + done.stderr[-8000:]
