@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "light/line_sampler.h"
 
+#include "math/simd.h"
+
 #include <cmath>
 
 namespace glimmer {
@@ -54,7 +56,7 @@ LineSampler::LineSampler(const Homogeneous &medium, const Vec3f &origin, const V
     t[0] = 0;
     t[kNodes - 1] = cut;
     const bool isotropic = medium.g == 0;
-    float last_source = 0;
+    std::array<float, kNodes> beyond, source; // the way past the shortest; what the light brings there
     for (size_t i = 0; i < kNodes; ++i) {
         const double s = t[i] - t_foot_, d2 = h2 + s * s;
         const double d = std::sqrt(std::max(d2, r * r));
@@ -64,22 +66,29 @@ LineSampler::LineSampler(const Homogeneous &medium, const Vec3f &origin, const V
             r > 0 ? 2 * sin2 / (1 + std::sqrt(1 - std::min(sin2, 1.0))) / (r * r) : 1 / std::max(d2, h_ * h_);
         const float way = float(std::max(t[i], 0.0) + d - r);
         // Relative to the shortest way, so that the density does not underflow where the picture is all but black.
-        const float beyond = std::max(way - float(distance - r), 0.0f);
-        const Rgb transmittance = medium.transmittance(beyond);
-        float source =
-            float(solid) * (medium.grey ? transmittance.r : (transmittance.r + transmittance.g + transmittance.b) / 3);
+        beyond[i] = std::max(way - float(distance - r), 0.0f);
+        source[i] = float(solid);
         if (!isotropic)
-            source *= HenyeyGreenstein{medium.g}.eval(float(-s / std::sqrt(std::max(d2, 1e-30))));
-        last_source = source;
-        density_[i] = std::max(source * float(ds_dx[i]), 1e-36f);
+            source[i] *= HenyeyGreenstein{medium.g}.eval(float(-s / std::sqrt(std::max(d2, 1e-30))));
     }
+    for (size_t i = 0; i < kNodes; i += 8) {
+        const Float8 way = Float8::load(&beyond[i]);
+        Float8 transmittance = exp(Float8(-medium.sigma_t.r) * way);
+        if (!medium.grey)
+            transmittance =
+                (transmittance + exp(Float8(-medium.sigma_t.g) * way) + exp(Float8(-medium.sigma_t.b) * way)) *
+                Float8(1 / 3.0f);
+        (Float8::load(&source[i]) * transmittance).store(&source[i]);
+    }
+    for (size_t i = 0; i < kNodes; ++i)
+        density_[i] = std::max(source[i] * float(ds_dx[i]), 1e-36f);
     cumulative_[0] = 0;
     for (size_t i = 1; i < kNodes; ++i)
         cumulative_[i] = cumulative_[i - 1] + 0.5f * (density_[i - 1] + density_[i]) * float(x_step_);
     total_ = cumulative_[kNodes - 1];
     if (t_end_ > t_cut_ && sigma_tail > 0) {
         tail_rate_ = float(sigma_tail);
-        tail_ = std::max(last_source, 1e-30f) / tail_rate_ * -std::expm1(-tail_rate_ * (t_end_ - t_cut_));
+        tail_ = std::max(source[kNodes - 1], 1e-30f) / tail_rate_ * -std::expm1(-tail_rate_ * (t_end_ - t_cut_));
         total_ += tail_;
     }
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Eight floats at a time (AVX2, which x86-64-v3 promises), for the inner loops over light vertices.
+// Eight floats at a time (AVX2, which x86-64-v3 promises), for the inner loops over light vertices and nodes of tables.
 #pragma once
 
+#include "math/vec.h"
+
+#include <cmath>
 #include <immintrin.h>
 
 namespace glimmer {
@@ -54,6 +57,17 @@ inline Float8 exp(Float8 x) {
     const __m256i bits = _mm256_slli_epi32(_mm256_add_epi32(_mm256_cvtps_epi32(n), _mm256_set1_epi32(127)), 23);
     const __m256 value = _mm256_mul_ps(p.v, _mm256_castsi256_ps(bits));
     return _mm256_andnot_ps(_mm256_cmp_ps(x.v, _mm256_set1_ps(-87.3f), _CMP_LT_OQ), value);
+}
+
+/// e^(-depth) of three channels at once. Depths may be infinite, of either sign.
+inline Rgb exp_minus(const Rgb &depth) {
+    // Where the vector form would end early or overflow: the subnormal tail is kept.
+    constexpr float kMost = 87;
+    if (!(max_component(depth) < kMost && std::min(depth.r, std::min(depth.g, depth.b)) > -kMost))
+        return {std::exp(-depth.r), std::exp(-depth.g), std::exp(-depth.b)};
+    alignas(32) float x[8];
+    exp(Float8(_mm256_setr_ps(-depth.r, -depth.g, -depth.b, 0, 0, 0, 0, 0))).store(x);
+    return {x[0], x[1], x[2]};
 }
 
 } // namespace glimmer

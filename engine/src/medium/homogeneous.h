@@ -2,6 +2,7 @@
 // A medium of constant coefficients: transmittance, and the sampling of distances.
 #pragma once
 
+#include "math/simd.h"
 #include "math/vec.h"
 #include "sampling/exponential.h"
 #include "sampling/sampler.h"
@@ -34,8 +35,7 @@ struct Homogeneous {
     Rgb transmittance(float t) const {
         if (grey)
             return Rgb(std::exp(-optical_depth(sigma_t.r, t)));
-        return {std::exp(-optical_depth(sigma_t.r, t)), std::exp(-optical_depth(sigma_t.g, t)),
-                std::exp(-optical_depth(sigma_t.b, t))};
+        return exp_minus({optical_depth(sigma_t.r, t), optical_depth(sigma_t.g, t), optical_depth(sigma_t.b, t)});
     }
 };
 
@@ -82,10 +82,11 @@ inline int pick_channel(const Rgb &share, float u) {
 
 /// sum_c share_c scale_c e^(offset - depth_c), over the channels that have a share.
 inline float mixture(const Rgb &share, const Rgb &scale, const Rgb &depth, float offset) {
+    const Rgb parts = share * scale, left = exp_minus(depth - Rgb(offset));
     float p = 0;
     for (int c = 0; c < 3; ++c)
-        if (share[c] * scale[c] > 0)
-            p += share[c] * scale[c] * std::exp(offset - depth[c]);
+        if (parts[c] > 0)
+            p += parts[c] * left[c];
     return p;
 }
 
@@ -105,10 +106,11 @@ inline Rgb depths(const Rgb &sigma, float t) {
 
 /// value_c e^(offset - depth_c) / p; 0 for a channel that carries no throughput, whose quotient has no bound.
 inline Rgb weigh(const Rgb &beta, const Rgb &value, const Rgb &depth, float offset, float p) {
+    const Rgb left = exp_minus(depth - Rgb(offset));
     Rgb w;
     for (int c = 0; c < 3; ++c)
         if (beta[c] > 0 && value[c] > 0 && depth[c] < kInfinity)
-            w[c] = value[c] * std::exp(offset - depth[c]) / p;
+            w[c] = value[c] * left[c] / p;
     return w;
 }
 
