@@ -132,7 +132,7 @@ class LightPath {
                         incoming,
                         surface.error,
                         path.power,
-                        luminance(path.power * albedo(bsdf)),
+                        mean_component(path.power * albedo(bsdf)),
                         surface.material};
         if (!(dot(incoming, v.geometric) > 0))
             return;
@@ -267,7 +267,7 @@ float CameraImportance::operator()(const Vec3f &x) const {
         const float d2 = length_squared(x - q);
         sum += std::exp(-kappa_ * std::sqrt(d2)) / std::sqrt(d2 + soften_);
     }
-    return sum;
+    return std::sqrt(sum * std::sqrt(sum));
 }
 
 std::vector<Vec3f> sample_seen_points(const Scene &scene, const Rectangle &pixels, const GlassStack &around_camera,

@@ -38,7 +38,7 @@ struct SurfaceVertex {
     Vec3f incoming;                     ///< unit, away from the surface
     float error;
     Rgb power;
-    float reflectance; ///< luminance of power * albedo: what it is worth
+    float reflectance; ///< mean component of power * albedo: what it is worth
     uint32_t material;
 };
 
@@ -59,7 +59,8 @@ struct Connection {
 Connection connect(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction);
 
 /// What the camera could see of a point: the importance that light paths are steered by (never their mean). Sum over
-/// fog points q on random camera rays of e^(-kappa d) / sqrt(d^2 + l^2).
+/// fog points q on random camera rays of e^(-kappa d) / sqrt(d^2 + l^2), to the power of 3/4: light that wanders in
+/// from far away, where few paths are wanted, must not arrive as one vertex that a whole block sees.
 class CameraImportance {
   public:
     CameraImportance(const Scene &scene, std::vector<Vec3f> points);

@@ -2,6 +2,7 @@
 #include "integrator/path.h"
 
 #include "integrator/path_sample.h"
+#include "integrator/seen_lights.h"
 #include "integrator/surroundings.h"
 
 namespace glimmer {
@@ -11,7 +12,8 @@ namespace {
 class PathIntegrator final : public Integrator {
   public:
     PathIntegrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options)
-        : scene_(scene), limits_(limits), options_(options), around_camera_(glass_around(scene, Vec3f())) {
+        : scene_(scene), limits_(limits), options_(options), around_camera_(glass_around(scene, Vec3f())),
+          seen_lights_(scene, around_camera_.empty() && !rays_start_apart() ? options.light_rays : 0) {
         if (options_.light_vertices && options_.line_lights && options_.deep_line_lights)
             pool_ = plan_light_pool(scene, limits, around_camera_);
     }
@@ -30,11 +32,13 @@ class PathIntegrator final : public Integrator {
                       RayCounter &rays) const override {
         PathState state;
         state.ray = camera.ray;
-        // A lens or the near plane may carry the ray across a wall.
-        state.glass = scene_.has_glass && scene_.camera.farthest_start() > 0 ? glass_around(scene_, camera.ray.origin)
-                                                                             : around_camera_;
+        state.glass = rays_start_apart() ? glass_around(scene_, camera.ray.origin) : around_camera_;
         const auto *pool = static_cast<const LightPoolBlock *>(block);
-        FilmSample result = PathSample(scene_, limits_, options_, pool, sampler, rays).run(state);
+        const uint32_t light_rays = seen_lights_.rays(camera.pixel_x, camera.pixel_y);
+        const float seen_part = 1 / float(1 + light_rays);
+        FilmSample result = PathSample(scene_, limits_, options_, pool, seen_part, sampler, rays).run(state);
+        if (light_rays)
+            result.emission += seen_lights_.sum(light_rays, camera.pixel_x, camera.pixel_y, sampler, rays) * seen_part;
         if (pool) {
             result.fog += pool->splatted(camera.pixel_x, camera.pixel_y);
             result.unfinished |= pool->unfinished;
@@ -49,10 +53,14 @@ class PathIntegrator final : public Integrator {
     }
 
   private:
+    /// A lens or the near plane may carry camera rays across a wall of glass.
+    bool rays_start_apart() const { return scene_.has_glass && scene_.camera.farthest_start() > 0; }
+
     const Scene &scene_;
     DepthLimits limits_;
     PathOptions options_;
     GlassStack around_camera_;
+    SeenLights seen_lights_;
     std::unique_ptr<const LightPool> pool_;
 };
 

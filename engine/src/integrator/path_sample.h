@@ -31,8 +31,9 @@ inline std::vector<PathState> &thread_stack() {
 class PathSample {
   public:
     PathSample(const Scene &scene, const DepthLimits &limits, const PathOptions &options, const LightPoolBlock *pool,
-               Sampler &sampler, RayCounter &rays)
-        : scene_(scene), limits_(limits), options_(options), pool_(pool), sampler_(sampler), rays_(rays) {
+               float seen_part, Sampler &sampler, RayCounter &rays)
+        : scene_(scene), limits_(limits), options_(options), pool_(pool), seen_part_(seen_part), sampler_(sampler),
+          rays_(rays) {
         if (scene_.medium) {
             const Rgb &s = scene_.medium->sigma_t;
             sigma_ = std::min(s.r, std::min(s.g, s.b));
@@ -169,6 +170,7 @@ class PathSample {
     const DepthLimits &limits_;
     const PathOptions &options_;
     const LightPoolBlock *pool_; ///< null: plain paths
+    float seen_part_; ///< of the radiance of a sphere that the camera's own ray meets; other rays bring the rest
     Sampler &sampler_;
     RayCounter &rays_;
     float sigma_ = 0; ///< smallest extinction of the channels

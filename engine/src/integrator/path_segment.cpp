@@ -59,7 +59,7 @@ void PathSample::add_emission(const PathState &state, const Hit &hit, const Inte
     float weight = 1;
     if (hit.instance == kNone) {
         const uint32_t light = scene_.lights.of_sphere(hit.primitive);
-        weight = direction_weight(state, light, kNone, hit.t, 1);
+        weight = state.depth == 0 ? seen_part_ : direction_weight(state, light, kNone, hit.t, 1);
     } else if (scene_.lights.of_meshes() != kNone) {
         const auto &mesh = std::get<MeshLight>(scene_.lights[scene_.lights.of_meshes()]);
         const uint32_t triangle = mesh.triangle_of[mesh.first_of_instance[hit.instance] + hit.primitive];

@@ -97,7 +97,7 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
     for (; j < n; ++j) // the last few are drawn by power alone
         targets[j] = 0;
     for (j = 0; j < n; ++j) {
-        powers[j] = luminance(vertices.power(j));
+        powers[j] = mean_component(vertices.power(j));
         targets[j] *= powers[j];
     }
     targets.resize(n);
@@ -134,7 +134,7 @@ void VertexPool::pick_surface(const std::vector<SurfaceVertex> &vertices, const 
             near += (std::max(dot(to_point, v.geometric) / std::max(d, 1e-30f), 0.0f) + 0.01f) * std::exp(-sigma * d) /
                     (d2 + soften);
         }
-        powers[j] = v.reflectance + 1e-6f * luminance(v.power);
+        powers[j] = v.reflectance + 1e-6f * mean_component(v.power);
         targets[j] = near * powers[j];
     }
     const uint32_t count = settings_.sub_pools * settings_.surface_picks;
@@ -168,7 +168,7 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
     if (fog_count) {
         const Float8 px(x.x), py(x.y), pz(x.z), bound(settings_.fog_bound * settings_.fog_bound);
         const Float8 sr(-medium.sigma_t.r), sg(-medium.sigma_t.g), sb(-medium.sigma_t.b);
-        const Float8 lr(0.2126f), lg(0.7152f), lb(0.0722f);
+        const Float8 third(1 / 3.0f);
         const Float8 sx(seen.x), sy(seen.y), sz(seen.z);
         const Phase8 phases(medium.g);
         Float8 red, green, blue, part_sum;
@@ -190,7 +190,7 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
             const Float8 r = er * Float8::load(&fog_.r[j]);
             const Float8 g = (medium.grey ? er : exp(sg * d) * inverse) * Float8::load(&fog_.g[j]);
             const Float8 b = (medium.grey ? er : exp(sb * d) * inverse) * Float8::load(&fog_.b[j]);
-            const Float8 part = r * lr + g * lg + b * lb;
+            const Float8 part = (r + g + b) * third; // mean_component
             part.store(&fog_parts[k]);
             red = red + r, green = green + g, blue = blue + b, part_sum = part_sum + part;
         }
@@ -210,7 +210,7 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
         const float scale =
             c.held * phase.eval(seen, -to_point / d) / (d2 + settings_.surface_bound * settings_.surface_bound);
         surface_values[k] = c.factor * v.power * medium.transmittance(d) * scale;
-        surface_parts[k] = luminance(surface_values[k]);
+        surface_parts[k] = mean_component(surface_values[k]);
         total += surface_values[k];
         parts += surface_parts[k];
     }

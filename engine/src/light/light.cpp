@@ -26,7 +26,7 @@ RectangleShape seen_from(const AreaLamp &light, const Vec3d &x) {
 /// Intensity of a surface, for bounds. Radiance times area may be beyond float32 though a picture of it is not; it only
 /// guides choices, so it is capped there (infinite weights would make every share of them NaN).
 float bounded_strength(const Rgb &radiance, double area) {
-    return float(std::min(double(luminance(radiance)) * area, 1e30));
+    return float(std::min(double(mean_component(radiance)) * area, 1e30));
 }
 
 /// Where a direction stands in an equirectangular picture: centre along +y, z up; u to the right, v down, both 0 to 1.
@@ -211,9 +211,9 @@ LightBound bound_light(const Light &light) {
         b = {Vec3f(l->sphere.center), r, false,
              bounded_strength(l->radiance, kPiDouble * l->sphere.radius * l->sphere.radius)};
     } else if (const auto *l = std::get_if<MeshLight>(&light)) {
-        b = {l->center, l->radius, false, luminance(l->intensity)};
+        b = {l->center, l->radius, false, mean_component(l->intensity)};
     } else if (const auto *l = std::get_if<PointLamp>(&light)) {
-        b = {l->position, 0, false, luminance(l->intensity)};
+        b = {l->position, 0, false, mean_component(l->intensity)};
     } else if (const auto *l = std::get_if<BallLamp>(&light)) {
         const auto r = float(l->sphere.radius);
         b = {Vec3f(l->sphere.center), r, false,
@@ -225,10 +225,10 @@ LightBound bound_light(const Light &light) {
              bounded_strength(l->radiance, area)};
     } else if (const auto *l = std::get_if<SunLamp>(&light)) {
         b.infinite = true;
-        b.strength = luminance(l->irradiance);
+        b.strength = mean_component(l->irradiance);
     } else if (const auto *l = std::get_if<EnvironmentLight>(&light)) {
         b.infinite = true;
-        b.strength = kPi * luminance(l->mean);
+        b.strength = kPi * mean_component(l->mean);
     }
     return b;
 }

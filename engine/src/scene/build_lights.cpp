@@ -80,7 +80,7 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
             const double area = 0.5 * length(cross(b - a, c - a));
             out.radiance = emission(t);
             out.error = 0x1p-20f * (local + max_abs(instance.translation));
-            const double strength = area * double(luminance(out.radiance));
+            const double strength = area * double(mean_component(out.radiance));
             if (!(strength > 0)) {
                 light.triangle_of.push_back(kNone);
                 continue;
@@ -168,10 +168,10 @@ void SceneBuilder::add_environment(std::vector<Light> &lights) {
                     for (int dx = -1; dx <= 1; ++dx) {
                         const uint32_t ny = uint32_t(std::clamp(int(y) + dy, 0, int(image.height) - 1));
                         const uint32_t nx = uint32_t((int64_t(x) + dx + image.width) % image.width);
-                        around = std::max(around, luminance(image.pixels[size_t(ny) * image.width + nx]));
+                        around = std::max(around, mean_component(image.pixels[size_t(ny) * image.width + nx]));
                     }
                 const Rgb &pixel = image.pixels[size_t(y) * image.width + x];
-                weights[size_t(y) * image.width + x] = std::max(luminance(pixel), 0.25f * around) * float(sine);
+                weights[size_t(y) * image.width + x] = std::max(mean_component(pixel), 0.25f * around) * float(sine);
                 sum += Vec3d(double(pixel.r), double(pixel.g), double(pixel.b)) * sine;
                 sines += sine;
             }
