@@ -70,7 +70,7 @@ class Integrator {
 };
 
 inline constexpr std::array<glimmer_integrator_info_t, 2> kIntegrators{{
-    {"path", "path tracing; the camera's segments of fog are solved light by light"},
+    {"path", "path tracing; fog by light vertices that all pixels share, the camera's segments of it light by light"},
     {"report", "the student report's method, as a yardstick: one light, exponential free flights, balance heuristic"},
 }};
 

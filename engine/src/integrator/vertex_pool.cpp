@@ -11,8 +11,10 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kGuided = 0.9f; // of the picks by target, the rest by power: no vertex has probability 0
-constexpr float kSoften = 3;    // targets see bounds this much larger, for points that the representatives are not
+// Of the picks by target, the rest by number: no vertex has probability 0, and none counts for many. (By power would
+// spend them far away, where the weight window leaves few and heavy vertices.)
+constexpr float kGuided = 0.7f;
+constexpr float kSoften = 3; // targets see bounds this much larger, for points that the representatives are not
 constexpr uint32_t kMostPicks = 512;
 
 /// The Henyey-Greenstein phase function, eight cosines between directions of propagation at a time.
@@ -32,24 +34,25 @@ float mean_extinction(const Homogeneous &medium) {
     return (medium.sigma_t.r + medium.sigma_t.g + medium.sigma_t.b) / 3;
 }
 
-/// One systematic draw of `count` of the entries by targets and powers: calls pick(k, j, 1 / (p_j * count)) with k from
-/// 0.
+/// One systematic draw of `count` of the entries by targets: calls pick(k, j, 1 / (p_j * count)) with k from 0. Entries
+/// of power 0 bring nothing and are left out.
 template <class Pick>
 void draw(const std::vector<float> &targets, const std::vector<float> &powers, uint32_t count, float u,
           const Pick &pick) {
-    double target_sum = 0, power_sum = 0;
+    double target_sum = 0;
+    size_t bright = 0;
     for (size_t j = 0; j < targets.size(); ++j) {
         target_sum += double(targets[j]);
-        power_sum += double(powers[j]);
+        bright += powers[j] > 0 ? 1 : 0;
     }
-    if (!(power_sum > 0))
+    if (bright == 0)
         return;
     const double guided = target_sum > 1e-30 ? double(kGuided) : 0.0;
-    const double by_target = guided > 0 ? guided / target_sum : 0.0, by_power = (1 - guided) / power_sum;
+    const double by_target = guided > 0 ? guided / target_sum : 0.0, by_number = (1 - guided) / double(bright);
     double sum = 0;
     uint32_t k = 0;
     for (size_t j = 0; j < targets.size() && k < count; ++j) {
-        const double p = by_target * double(targets[j]) + by_power * double(powers[j]);
+        const double p = powers[j] > 0 ? by_target * double(targets[j]) + by_number : 0.0;
         sum += p;
         // The last vertex takes what rounding left over.
         for (; k < count && ((k + double(u)) < sum * count || (j + 1 == targets.size() && p > 0)); ++k)
@@ -94,7 +97,7 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
         }
         near.store(&targets[j]);
     }
-    for (; j < n; ++j) // the last few are drawn by power alone
+    for (; j < n; ++j) // the last few are drawn by number alone
         targets[j] = 0;
     for (j = 0; j < n; ++j) {
         powers[j] = mean_component(vertices.power(j));
