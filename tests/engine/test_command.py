@@ -173,8 +173,10 @@ def test_aovs_change_no_pixel(tmp_path: Path) -> None:
 
 
 def test_crop_is_a_data_window(tmp_path: Path) -> None:
-    whole = render(tmp_path, hazy_moon(), "--spp", 3, "--aov", "depth", name="whole")
-    content = scenes.changed(hazy_moon(), ("film", "crop"), [5, 2, 20, 13])
+    """The same bits as of the whole, in fog whose peak lets no light vertices be shared by what is in the crop."""
+    peaked = scenes.changed(hazy_moon(), ("medium", "g"), 0.95)
+    whole = render(tmp_path, peaked, "--spp", 3, "--aov", "depth", name="whole")
+    content = scenes.changed(peaked, ("film", "crop"), [5, 2, 20, 13])
     part = render(tmp_path, content, "--spp", 3, "--aov", "depth", name="part")
     assert part.window == (5, 2, 20, 13) and part.size == (24, 16)
     assert all(np.array_equal(part.channels[name], whole.channels[name][2:13, 5:20]) for name in whole.channels)

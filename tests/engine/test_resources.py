@@ -131,7 +131,7 @@ def test_shared_passes_count_in_the_peak() -> None:
         return peaks[1] - peaks[0]
 
     assert growth(0) > 10000
-    assert growth(0.5) == 0
+    assert growth(0.95) == 0
 
 
 PLATE = {"vertices": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], "triangles": [[0, 1, 2], [0, 2, 3]]}
