@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "api/calls.h"
+
+#include <array>
+#include <cmath>
+
+namespace glimmer {
+
+void create_scene(Input &in, Handles &handles) {
+    glimmer_scene *scene = nullptr;
+    handles.keep(glimmer_scene_create(&scene), scene, handles.scenes);
+    if (in.ConsumeBool()) { // what every scene needs, so that there are whole ones
+        set_camera(in, scene);
+        set_film(in, scene);
+        for (int i = 0; i < 3; ++i)
+            add_material(in, scene);
+    }
+}
+
+void add_material(Input &in, glimmer_scene *scene) {
+    glimmer_material_desc desc;
+    glimmer_material_init(&desc);
+    desc.name = in.name();
+    desc.type = in.choice<glimmer_material_type>(GLIMMER_NULL);
+    for (float *values : {desc.color, desc.eta, desc.k, desc.f0, desc.emission})
+        if (in.ConsumeIntegralInRange<int>(0, 3) == 0)
+            in.fill(values, 3);
+    desc.alpha = in.ConsumeFloatingPointInRange<float>(-0.1f, 1.1f);
+    desc.use_f0 = in.ConsumeBool();
+    desc.masking = in.choice<glimmer_masking>(GLIMMER_SCHLICK_GGX);
+    if (in.ConsumeBool())
+        desc.ior = in.single();
+    desc.schlick_fresnel = in.ConsumeBool();
+    desc.weight = in.ConsumeFloatingPointInRange<float>(-0.1f, 1.1f);
+    desc.a = in.index();
+    desc.b = in.index();
+    in.spoil_size(desc);
+    uint32_t material = 0;
+    expect(glimmer_scene_add_material(scene, &desc, &material));
+}
+
+void add_object(Input &in, Handles &handles, glimmer_scene *scene) {
+    glimmer_object_desc desc;
+    glimmer_object_init(&desc);
+    std::array<uint32_t, 4> materials{}, indices{};
+    std::array<double, 4 * 12> instances{};
+    for (uint32_t &material : materials)
+        material = in.index();
+    desc.name = in.name();
+    desc.mesh = handles.any(handles.meshes);
+    desc.material_count = in.ConsumeIntegralInRange<size_t>(0, materials.size());
+    desc.materials = materials.data();
+    in.matrix(desc.to_world);
+    if (in.ConsumeBool()) {
+        in.fill(instances.data(), instances.size());
+        desc.instances = instances.data();
+        desc.instance_count = in.ConsumeIntegralInRange<size_t>(0, 4);
+        desc.instance_format = in.ConsumeIntegralInRange<int>(0, 7) ? GLIMMER_FLOAT64 : in.choice<glimmer_format>(1);
+        desc.object_indices = in.ConsumeBool() ? indices.data() : nullptr;
+        if (in.ConsumeIntegralInRange<int>(0, 31) == 0)
+            desc.instance_count = SIZE_MAX;
+    }
+    in.spoil_size(desc);
+    expect(glimmer_scene_add_object(scene, &desc));
+}
+
+void add_spheres(Input &in, glimmer_scene *scene) {
+    glimmer_spheres_desc desc;
+    glimmer_spheres_init(&desc);
+    std::array<double, 3 * kMostElements> centers{};
+    std::array<double, kMostElements> radii{};
+    in.fill(centers.data(), centers.size());
+    for (double &radius : radii)
+        radius = in.ConsumeIntegralInRange<int>(0, 7) ? std::abs(in.number()) : in.number();
+    desc.name = in.name();
+    desc.count = in.ConsumeIntegralInRange<size_t>(0, kMostElements);
+    desc.centers = centers.data();
+    desc.radius_count = in.ConsumeBool() ? 1 : in.ConsumeIntegralInRange<size_t>(0, kMostElements);
+    desc.radii = radii.data();
+    desc.material = in.index();
+    if (in.ConsumeIntegralInRange<int>(0, 31) == 0)
+        desc.count = SIZE_MAX;
+    in.spoil_size(desc);
+    expect(glimmer_scene_add_spheres(scene, &desc));
+}
+
+void add_light(Input &in, glimmer_scene *scene) {
+    glimmer_light_desc desc;
+    glimmer_light_init(&desc);
+    desc.name = in.name();
+    desc.type = in.choice<glimmer_light_type>(GLIMMER_AREA);
+    if (in.ConsumeBool())
+        in.fill(desc.color, 3);
+    if (in.ConsumeBool())
+        in.fill(desc.position, 3);
+    if (in.ConsumeBool())
+        in.fill(desc.direction, 3);
+    if (in.ConsumeBool())
+        in.fill(desc.size, 2);
+    desc.radius = std::abs(in.number());
+    desc.angle = in.number();
+    desc.blend = in.ConsumeFloatingPointInRange<double>(-0.1, 1.1);
+    in.matrix(desc.to_world);
+    desc.ellipse = in.ConsumeBool();
+    in.spoil_size(desc);
+    expect(glimmer_scene_add_light(scene, &desc));
+}
+
+void set_environment(Input &in, Handles &handles, glimmer_scene *scene) {
+    float color[3];
+    double to_world[16];
+    in.fill(color, 3);
+    in.matrix(to_world);
+    expect(glimmer_scene_set_environment(scene, color, in.ConsumeBool() ? handles.any(handles.images) : nullptr,
+                                         in.ConsumeBool() ? to_world : nullptr));
+}
+
+void set_medium(Input &in, glimmer_scene *scene) {
+    double sigma_a[3], sigma_s[3];
+    for (size_t c = 0; c < 3; ++c) {
+        sigma_a[c] = in.ConsumeIntegralInRange<int>(0, 7) ? in.ConsumeProbability<double>() : in.number();
+        sigma_s[c] = in.ConsumeIntegralInRange<int>(0, 7) ? in.ConsumeProbability<double>() : in.number();
+    }
+    expect(glimmer_scene_set_medium(scene, sigma_a, sigma_s, in.ConsumeFloatingPointInRange<double>(-1, 1)));
+}
+
+void set_camera(Input &in, glimmer_scene *scene) {
+    glimmer_camera_desc desc;
+    glimmer_camera_init(&desc);
+    in.matrix(desc.to_world);
+    if (in.ConsumeBool())
+        desc.fov_x = in.number();
+    if (in.ConsumeBool())
+        in.fill(desc.shift, 2);
+    if (in.ConsumeBool())
+        desc.lens_radius = in.number(), desc.focus_distance = in.number();
+    if (in.ConsumeBool())
+        desc.clip_start = in.number(), desc.clip_end = in.number();
+    in.spoil_size(desc);
+    expect(glimmer_scene_set_camera(scene, &desc));
+}
+
+void set_film(Input &in, glimmer_scene *scene) {
+    glimmer_film_desc desc;
+    glimmer_film_init(&desc);
+    // Always small, or refused: what takes gigabytes is another test's.
+    desc.width = in.ConsumeIntegralInRange<uint32_t>(0, kMostSide);
+    desc.height = in.ConsumeIntegralInRange<uint32_t>(0, kMostSide);
+    if (in.ConsumeIntegralInRange<int>(0, 15) == 0)
+        (in.ConsumeBool() ? desc.width : desc.height) = 65537;
+    if (in.ConsumeBool())
+        for (uint32_t &edge : desc.crop)
+            edge = in.ConsumeBool() ? in.ConsumeIntegralInRange<uint32_t>(0, kMostSide) : in.integer();
+    desc.filter = in.choice<glimmer_filter>(GLIMMER_BLACKMAN_HARRIS);
+    desc.filter_width = in.ConsumeBool() ? 1.5f : in.single();
+    expect(glimmer_scene_set_film(scene, &desc)); // of the size known, or the default's
+}
+
+void commit(Input &in, glimmer_scene *scene) {
+    if (expect(glimmer_scene_commit(scene, in.ConsumeIntegralInRange<uint32_t>(0, 3))) == GLIMMER_OK)
+        require(glimmer_scene_warnings(scene) != nullptr, "no warnings of a committed scene");
+}
+
+} // namespace glimmer
