@@ -19,6 +19,9 @@ import addon_utils
 import bpy
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "blender"))
+
+from exact_cycles import set_up_cycles, use_exr  # noqa: E402 - a neighbour by name
 
 
 def change(scene: Any, haze: dict[str, list[float]] | None, roughness: float | None) -> None:
@@ -53,34 +56,6 @@ def correct_spheres(scene: Any) -> None:
         mesh.update()
 
 
-def set_up_cycles(scene: Any) -> None:
-    """Nothing that biases, and the sampling that suits fog best. What a version does not know is left out."""
-    scene.render.engine = "CYCLES"
-    settings = {
-        "device": "CPU",
-        "use_denoising": False,
-        "use_adaptive_sampling": False,
-        "sample_clamp_direct": 0.0,
-        "sample_clamp_indirect": 0.0,
-        "blur_glossy": 0.0,
-        "caustics_reflective": True,
-        "caustics_refractive": True,
-        "pixel_filter_type": "BOX",
-        "use_light_tree": True,
-        "volume_biased": True,
-    }
-    bounces = ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max")
-    settings |= {f"{kind}_bounces": 1024 for kind in bounces}
-    for name, value in settings.items():
-        if hasattr(scene.cycles, name):
-            setattr(scene.cycles, name, value)
-    scene.world.cycles.volume_sampling = "MULTIPLE_IMPORTANCE"
-    image = scene.render.image_settings
-    if hasattr(image, "media_type"):  # 5.0 on
-        image.media_type = "IMAGE"
-    image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
-
-
 def render(scene: Any, samples: int, seed: int) -> tuple[float, float]:
     """CPU and wall seconds."""
     scene.cycles.samples, scene.cycles.seed = samples, seed
@@ -95,6 +70,7 @@ def render_all(scene: Any, folder: Path, tasks: list[list[int]]) -> None:
 
     correct_spheres(scene)
     set_up_cycles(scene)
+    use_exr(scene)
     render(scene, 1, 0)  # what only the first render of a process does
     for samples, seed in tasks:
         cpu, wall = render(scene, samples, seed)

@@ -23,6 +23,7 @@ from tests.bench.store import digest, picture_of, read_record, write_record
 ROOT = Path(__file__).resolve().parents[2]
 _HERE = Path(__file__).parent
 _SCRIPT = _HERE / "inside_blender.py"
+_SETTINGS = ROOT / "tests" / "blender" / "exact_cycles.py"
 _TIMEOUT = 4 * 3600.0
 
 
@@ -185,7 +186,7 @@ class Cycles:
 
     def runs(self, stage: Stage, tasks: Sequence[Task]) -> list[Run]:
         blend = ROOT / "blend_scenes" / f"{stage.scene.blend}.blend"
-        room = stage.room("Cycles", (stage.blender,), [_SCRIPT, blend])
+        room = stage.room("Cycles", (stage.blender,), [_SCRIPT, _SETTINGS, blend])
         missing = [[task.samples, task.seed] for task in _missing(room, tasks)]
         if missing:
             job, _ = _job(stage.scene, stage.size, room, {"folder": str(room), "cycles": missing})

@@ -17,6 +17,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 
 import inside
+from exact_cycles import set_up_cycles
 
 OUT = Path(inside.words()[0])
 SEEDS, SAMPLES = 4, 32
@@ -188,28 +189,6 @@ else:
     SCENES["principled fog"] = lambda: fog("ShaderNodeVolumePrincipled", Color=OCHRE, Density=0.05)
 
 
-def set_up_cycles(scene: Any) -> None:
-    """Everything that makes Cycles exact."""
-    exact = {
-        "use_denoising": False,
-        "use_adaptive_sampling": False,
-        "sample_clamp_direct": 0.0,
-        "sample_clamp_indirect": 0.0,
-        "blur_glossy": 0.0,
-        "light_sampling_threshold": 0.0,
-        "pixel_filter_type": "BOX",
-        "device": "CPU",
-        "samples": SAMPLES,
-        "volume_biased": True,
-    }
-    exact |= dict.fromkeys(
-        [f"{kind}bounces" for kind in ("max_", "diffuse_", "glossy_", "volume_", "transmission_")], 128
-    )
-    for name, value in exact.items():
-        if hasattr(scene.cycles, name):
-            setattr(scene.cycles, name, value)
-
-
 def picture(engine: str, seed: int) -> Any:
     scene = bpy.context.scene
     scene.render.engine = engine
@@ -230,7 +209,7 @@ for name, build in SCENES.items():
     current = bpy.context.scene
     current.render.resolution_x, current.render.resolution_y = WIDTH, HEIGHT
     current.glimmer.samples, current.glimmer.filter = SAMPLES, "BOX"
-    set_up_cycles(current)
+    set_up_cycles(current, samples=SAMPLES)
     for engine in ("CYCLES", "GLIMMER"):
         pictures[f"{name}.{engine}"] = np.array([picture(engine, seed) for seed in range(SEEDS)])
 np.savez(OUT / "pictures.npz", **pictures)
@@ -240,11 +219,9 @@ for filter_width in (1.5, 2.5):
     edge()
     current = bpy.context.scene
     current.render.resolution_x, current.render.resolution_y = WIDTH, HEIGHT
-    set_up_cycles(current)
-    current.cycles.samples = current.glimmer.samples = 1024
-    current.glimmer.filter = "BLACKMAN_HARRIS"
-    current.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
-    current.cycles.filter_width = current.glimmer.filter_width = filter_width
+    set_up_cycles(current, samples=1024, pixel_filter_type="BLACKMAN_HARRIS", filter_width=filter_width)
+    current.glimmer.samples = 1024
+    current.glimmer.filter, current.glimmer.filter_width = "BLACKMAN_HARRIS", filter_width
     for engine in ("CYCLES", "GLIMMER"):
         edges[f"{filter_width}.{engine}"] = picture(engine, 0)
 np.savez(OUT / "edges.npz", **edges)

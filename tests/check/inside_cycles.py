@@ -17,26 +17,11 @@ import bmesh
 import bpy
 from mathutils import Matrix
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
+
+from exact_cycles import MOST_BOUNCES, set_up_cycles, use_exr
+
 SPLITS = 4  # of the icosahedron that stands for a sphere: 1280 faces; far from the origin finer ones collapse
-MOST_BOUNCES = 1024  # that Cycles takes
-SETTINGS = {
-    "device": "CPU",
-    "use_denoising": False,
-    "use_adaptive_sampling": False,
-    "sample_clamp_direct": 0.0,
-    "sample_clamp_indirect": 0.0,
-    "light_sampling_threshold": 0.0,
-    "blur_glossy": 0.0,
-    "caustics_reflective": True,
-    "caustics_refractive": True,
-    "pixel_filter_type": "BOX",
-    "use_light_tree": True,
-    "volume_biased": True,
-    **{
-        f"{kind}_bounces": MOST_BOUNCES
-        for kind in ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max")
-    },
-}
 
 
 # ---- Materials -----------------------------------------------------------------------------------------------------
@@ -129,7 +114,6 @@ def make_world(environment: dict[str, Any], medium: dict[str, Any] | None) -> An
             nodes.add("ShaderNodeVolumeAbsorption", Color=(*passes, 1.0), Density=density),
         )
         nodes.end("ShaderNodeOutputWorld", "Volume", fog)
-    world.cycles.volume_sampling = "MULTIPLE_IMPORTANCE"
     world.cycles.homogeneous_volume = True
     return world
 
@@ -219,21 +203,10 @@ def make_scene(description: dict[str, Any], lamps: bool) -> Any:
 
 
 def set_up(scene: Any, samples: int, max_scatter: int) -> dict[str, Any]:
-    """Nothing that biases. What a version does not know is left out; the rest is returned."""
-    scene.render.engine = "CYCLES"
-    wanted: dict[str, Any] = {**SETTINGS, "samples": samples}
-    if max_scatter >= 0:
-        wanted["volume_bounces"] = max_scatter - 1
-    known = {name: value for name, value in wanted.items() if hasattr(scene.cycles, name)}
-    for name, value in known.items():
-        setattr(scene.cycles, name, value)
-        if getattr(scene.cycles, name) != value:
-            raise RuntimeError(f"Cycles sets {name} to {getattr(scene.cycles, name)}, not {value}")
-    image = scene.render.image_settings
-    if hasattr(image, "media_type"):  # 5.0 on
-        image.media_type = "IMAGE"
-    image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
-    return known
+    """What is set of Cycles."""
+    use_exr(scene)
+    scattering = {"volume_bounces": max_scatter - 1} if max_scatter >= 0 else {}
+    return set_up_cycles(scene, samples=samples, **scattering)
 
 
 def cpu_seconds() -> float:
