@@ -19,6 +19,18 @@ FLUX = np.array(ALBEDO) / np.pi
 UNIT = 2.0**-24
 
 
+SPHERES = {
+    # sine of the angular radius, angle of the centre from the normal
+    "overhead": (0.5, 0.0),
+    "oblique": (0.3, 0.7),
+    "clipped, centre above the horizon": (0.5, 1.3),
+    "clipped, centre below the horizon": (0.5, 1.8),
+    "a sliver above the horizon": (0.2, 1.72),
+    "wide and clipped": (0.9, 1.0),
+    "almost all of the sky": (0.999, 0.0),
+}
+
+
 def plate(eye: ArrayLike, half: float = 1e-3) -> Builder:
     """A plate at z = 0, seen at the origin; so small that no light beneath its horizon is cut by it."""
     return Builder(radiometer(eye, (0, 0, 0))).mesh(floor(half=half), d.Lambert(ALBEDO))
@@ -96,15 +108,7 @@ def small_triangle(side: float) -> d.SceneDescription:
 
 def cases() -> list[Case]:
     result = []
-    for what, sine, theta in (
-        ("overhead", 0.5, 0.0),
-        ("oblique", 0.3, 0.7),
-        ("clipped, centre above the horizon", 0.5, 1.3),
-        ("clipped, centre below the horizon", 0.5, 1.8),
-        ("a sliver above the horizon", 0.2, 1.72),
-        ("wide and clipped", 0.9, 1.0),
-        ("almost all of the sky", 0.999, 0.0),
-    ):
+    for what, (sine, theta) in SPHERES.items():
         result.append(
             picture(
                 f"sphere light {what}",

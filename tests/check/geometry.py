@@ -18,7 +18,7 @@ from tests.check.transform import rotation, similar
 from tests.engine.library import Scene
 from tests.render import closed_forms as exact
 from tests.render.build import BLACK, WHITE, Builder, at, box, camera, floor, grey, octahedron, quad, radiometer, sky
-from tests.render.statistics import ROUNDING, Clock
+from tests.render.statistics import ROUNDING, Clock, Measurement, Pictures
 
 ODD = np.array([1 / 3, -0.1, np.pi / 7])
 """No float of any size holds these."""
@@ -44,11 +44,13 @@ def slab() -> d.SceneDescription:
 
 
 R45 = exact.fresnel(np.sqrt(0.5), 1.5)
+SLOW = "white fog with bodies"
 MOVED: dict[str, tuple[Callable[[], d.SceneDescription], ArrayLike, float, int]] = {
     # scene, expected, within, max_scatter
     "a lit plate": (lambda: lit_by(1.3, 0.5), LIT, 0.02, -1),
     "white bodies": (bodies, 1, 0.02, -1),
     "fog": (hazy, AIRLIGHT, 0.02, 1),
+    SLOW: (lambda: fog.furnace(grey(1), 0, True, 8), 1, 0.05, -1),
     "a glass slab": (slab, [(1 - R45) / (1 + R45), 2 * R45 / (1 + R45), 1], 0.05, -1),
 }
 
@@ -61,9 +63,20 @@ def telescope(distance: float) -> d.SceneDescription:
     return scene.sphere((0, 0, 10), 3, d.Light(WHITE)).done()
 
 
+PLANET, EYE = 1e7, 1.7
+"""Radius, and the camera's height above it."""
+HORIZON_VIEW = 0.01
+"""Radians that the picture of its horizon is wide."""
+
+
 def planet(target: tuple[float, float, float], fov: float, **parts: d.Environment) -> Builder:
-    """1.7 above a black or grey ball of radius 1e7."""
-    return Builder(camera((0, 0, 1.7), target, fov), 16, 16, **parts)
+    """Above a black or grey ball of radius PLANET, which is yet to come."""
+    return Builder(camera((0, 0, EYE), target, fov), 16, 16, **parts)
+
+
+def horizon() -> float:
+    """Share of sky in a picture whose middle row is level: the horizon's dip is sqrt(2 h / R)."""
+    return float(0.5 + np.sqrt(2 * EYE / PLANET) / (2 * np.tan(HORIZON_VIEW / 2)))
 
 
 def triangles(*meshes: d.Mesh) -> d.SceneDescription:
@@ -75,9 +88,9 @@ def triangles(*meshes: d.Mesh) -> d.SceneDescription:
     return scene.sphere(10 * at(1.3), 5, d.Light(WHITE)).done()
 
 
-def needles(count: int = 1000, half: float = 1e-3) -> d.Mesh:
-    """A plate of strips."""
-    x = np.linspace(-half, 1.2 * half, count + 1)
+def needles(x: NDArray[Any], half: float = 1e-3) -> d.Mesh:
+    """A plate of strips, between these places."""
+    count = len(x) - 1
     vertices = np.array([(a, s * half, 0) for a in x for s in (-1, 1)])
     i = 2 * np.arange(count)
     faces = np.concatenate([np.stack([i, i + 2, i + 1], axis=1), np.stack([i + 1, i + 2, i + 3], axis=1)])
@@ -134,6 +147,18 @@ def sealed(body: d.Mesh, offset: float = 0, light: float = 1e12, around: float =
     scene.mesh(body, d.Mix(0.5, d.Lambert(grey(0.5)), d.Mirror(grey(0.8))))
     scene.sphere((0, 0, 3.01), 1, d.Light(grey(light)))
     return similar(scene.done(), turn=rotation((1, 2, 3), 30), offset=np.full(3, offset) + ODD)
+
+
+def walls(integrator: str, clock: Clock) -> Estimate:
+    """1 and the light in a closed room whose walls are objects of their own, under a sky of 1."""
+    scene = Builder(camera((0.1, -0.2, 0.3), (0.3, 1, 0.1), 120), environment=sky())
+    for axis in range(3):
+        out, u, v = 2 * np.roll(np.eye(3), axis, axis=0)
+        for side in (-1, 1):
+            scene.mesh(quad(side * out, u, v), d.Lambert(grey(0.9)))
+    room = similar(scene.done(), turn=rotation((1, 2, 3), 30), offset=ODD)
+    pictures = Pictures(Measurement(room, integrator, samples=8), clock)
+    return lambda seed: 1 + float(pictures(seed).mean())
 
 
 def along_edge() -> d.SceneDescription:
@@ -241,7 +266,7 @@ def moved() -> list[Case]:
             within=within,
             max_scatter=max_scatter,
             rounding=1e-5,
-            quick="a bit" in how or "1e-06" in how or "1e+09" in how or "1e-4" in how,
+            quick="1e-4" in how or (what != SLOW and ("a bit" in how or "1e-06" in how or "1e+09" in how)),
         )
         for what, (scene, expected, within, max_scatter) in MOVED.items()
         for how, arguments in PLACES
@@ -266,9 +291,9 @@ def cases() -> list[Case]:
         picture(
             "1.7 above a planet of radius 1e7, moonlit ground",
             lambda: (
-                planet((0, 1, 0.7), 0.01)
-                .sphere((0, 0, -1e7), 1e7, ground)
-                .sphere((0, 1.7, 10), 3, d.Light(WHITE))
+                planet((0, 1, EYE - 1), 0.01)
+                .sphere((0, 0, -PLANET), PLANET, ground)
+                .sphere((0, EYE, 10), 3, d.Light(WHITE))
                 .done()
             ),
             FLUX * exact.sphere_irradiance(0.3, 0),
@@ -278,11 +303,11 @@ def cases() -> list[Case]:
         picture(
             "1.7 above a planet of radius 1e7, its horizon",
             lambda: (
-                planet((0, 1, 1.7), float(np.degrees(0.01)), environment=sky())
-                .sphere((0, 0, -1e7), 1e7, d.Lambert(BLACK))
+                planet((0, 1, EYE), float(np.degrees(HORIZON_VIEW)), environment=sky())
+                .sphere((0, 0, -PLANET), PLANET, d.Lambert(BLACK))
                 .done()
             ),
-            0.5 + np.sqrt(2 * 1.7e-7) / (2 * np.tan(0.005)),
+            horizon(),
             within=0.005,
             rounding=1e-4,
         ),
@@ -292,7 +317,12 @@ def cases() -> list[Case]:
         picture("coincident quads", lambda: triangles(flat, flat), LIT, quick=True),
         picture("coincident quads, one reversed", lambda: triangles(flat, reversed_faces(flat)), LIT),
         picture("reversed triangles", lambda: triangles(reversed_faces(flat)), LIT),
-        picture("needle triangles, 2e-6 by 2e-3", lambda: triangles(needles()), LIT),
+        picture("needle triangles, 2e-6 by 2e-3", lambda: triangles(needles(np.linspace(-1e-3, 1.2e-3, 1001))), LIT),
+        picture(
+            "needle triangles, 2e-9 by 2e-3, where the camera looks",  # its view is 4e-6 wide
+            lambda: triangles(needles(np.r_[-1e-3, np.linspace(-4e-6, 4e-6, 4001), 1.2e-3])),
+            LIT,
+        ),
         picture("triangles without area among others", lambda: triangles(with_degenerate()), LIT, quick=True),
         picture(
             "an instance of zero scale among others",
@@ -338,6 +368,7 @@ def cases() -> list[Case]:
             within=0,
             samples=4,
         ),
+        Case("a room of six objects: not one ray in 1e4 passes their seams", 1, walls, within=1e-4, rounding=1e-4),
         Case("NaN, infinities and indices out of range are refused", 1, refused, within=0, rounding=0),
     ]
     return result

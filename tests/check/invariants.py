@@ -85,6 +85,22 @@ def same_bits(
     return Case(name, 0, measure, within=0, quick=quick, most_seeds=SEEDS)
 
 
+def below_zero(scene: Callable[[], d.SceneDescription]) -> Callable[[str, Clock], Estimate]:
+    """How many numbers of a picture are."""
+
+    def measure(integrator: str, clock: Clock) -> Estimate:
+        committed = Scene(scene())
+
+        def count(seed: int) -> int:
+            plain = rendered(committed, integrator, seed, clock)
+            assert plain.any(), "a black picture"
+            return int((plain < 0).sum())
+
+        return count
+
+    return measure
+
+
 def scaled_back(power: int) -> Callable[[Scene, str, int, Clock], Picture]:
     bright = Scene(brighter(clear_world(), 2.0**power))
     return lambda _, integrator, seed, clock: rendered(bright, integrator, seed, clock) / np.float32(2.0**power)
@@ -134,6 +150,9 @@ def cases() -> list[Case]:
             "three threads, the same bits", lambda s, i, seed, clock: rendered(s, i, seed, clock, threads=3), True
         ),
         same_bits("tiles of 5, the same bits", lambda s, i, seed, clock: rendered(s, i, seed, clock, tile_size=5)),
+        # In fog `path` takes what is hidden off again by one ray for many connections: alone there are such numbers.
+        Case("no number below 0, without fog", 0, below_zero(clear_world), within=0, quick=True),
+        Case("no number below 0, in fog", 0, below_zero(world), within=0, integrators=("report",)),
         *(
             same_bits(f"light times 2^{power}, the same bits", scaled_back(power), power == 20, clear_world)
             for power in (20, -30, 90)

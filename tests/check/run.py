@@ -52,10 +52,11 @@ def _seconds(case: Case, comparison: Comparison, per_seed: float) -> float | Non
 
 
 def _judge(case: Case, integrator: str, comparison: Comparison | None) -> str:
-    """A case with a limit must fail, and by no more than it says. comparison: None where rendering itself failed."""
+    """A case with a limit must fail, and by no more than it says; where noise is the limit, chance decides. comparison:
+    None where rendering itself failed."""
     limit = case.limit if case.limit is not None and integrator in case.limit.integrators else None
     if comparison is not None and comparison.verdict is Verdict.PASSES:
-        return comparison.verdict.value if limit is None else STALE
+        return comparison.verdict.value if limit is None or np.isinf(limit.error) else STALE
     if limit is None or (comparison is None and np.isfinite(limit.error)):
         return Verdict.FAILS.value if comparison is None else comparison.verdict.value
     if comparison is None or np.isinf(limit.error):

@@ -54,6 +54,8 @@ def judged(truth: float, noise: float, expected: float = 1, limit: Limit | None 
         (lambda: judged(1.3, 0.01, limit=Limit("", 0.1)), "fails"),
         (lambda: judged(1.3, 0.01, limit=Limit("", 1, ("report",))), "fails"),
         (lambda: judged(1, 0.01, limit=Limit("", 0.1)), STALE),
+        (lambda: judged(1, 2, limit=Limit("", np.inf)), LIMIT),
+        (lambda: judged(1, 0.01, limit=Limit("", np.inf)), "passes"),
         (lambda: judged(float("nan"), 0), "fails"),
     ],
 )
