@@ -45,7 +45,12 @@ def some_scenes(folder: Path) -> dict[str, Scene]:
 @cache
 def built(repository: Path, preset: str) -> Path:
     """The preset's folder of executables, compiled as far as these tests need it."""
-    targets = ["glimmer_command", *(f"fuzz_{name}" for name in FUZZERS if preset == "fuzz")]
+    targets = [
+        "glimmer_command",
+        "glimmer_probe",
+        "glimmer_example",
+        *(f"fuzz_{name}" for name in FUZZERS if preset == "fuzz"),
+    ]
     for command in (["cmake", "--preset", preset], ["cmake", "--build", "--preset", preset, "--target", *targets]):
         done = subprocess.run(command, cwd=repository / "engine", capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
@@ -167,19 +172,35 @@ def test_command_for_long(preset: str, sanitized: Callable[[str], None], tmp_pat
     render_all(some_scenes(tmp_path), tmp_path, ("path", "report"))
 
 
+RUNTIMES = {"asan": ("libasan.so", "libubsan.so"), "tsan": ("libtsan.so",)}
+"""What of a sanitizer must be in a Python that loads a library built with it."""
+THREADED = ("session", "saved_state")
+IN_PROCESS = (*THREADED, "api", "bsdf", "determinism", "error_command", "examples", "extremes", "fresnel")
+COMMANDS = ("command", "light_shapes", "medium", "phase", "samplers", "scene_file")
+
+
 @pytest.mark.full
-def test_sessions_under_tsan(repository: Path) -> None:
-    """Starting, pausing, cancelling and reading while worker threads render, through the C API in this Python."""
-    library = built(repository, "tsan").with_name("lib")
-    runtime = subprocess.run(["g++", "-print-file-name=libtsan.so"], capture_output=True, text=True, check=True)
+@pytest.mark.parametrize(("preset", "names"), [("asan", IN_PROCESS), ("asan", COMMANDS), ("tsan", THREADED)])
+def test_engine_tests(preset: str, names: tuple[str, ...], repository: Path) -> None:
+    """The engine's tests, with the library in this Python and with the command; under ThreadSanitizer those that start,
+    pause, cancel and read while worker threads render."""
+    paths = [
+        subprocess.run(["g++", f"-print-file-name={name}"], capture_output=True, text=True, check=True).stdout.strip()
+        for name in RUNTIMES[preset]
+    ]
+    binary = built(repository, preset).parent
     environment = {
         **os.environ,
-        "GLIMMER_LIB_DIR": os.fspath(library),
-        "LD_PRELOAD": os.fspath(Path(runtime.stdout.strip()).resolve()),
+        **ENVIRONMENT,
+        "GLIMMER_LIB_DIR": os.fspath(binary / "lib"),
+        "GLIMMER_BIN": os.fspath(binary / "bin" / "glimmer"),
+        "LD_PRELOAD": ":".join(os.fspath(Path(path).resolve()) for path in paths),
         "TSAN_OPTIONS": f"exitcode=66:suppressions={repository / 'engine' / 'tsan.supp'}",
         "OPENBLAS_NUM_THREADS": "1",  # its own threads were built without the sanitizer
     }
-    tests = [f"tests/engine/test_{name}.py" for name in ("session", "saved_state")]
-    command = [sys.executable, "-m", "pytest", "-q", "-s", "-p", "no:cacheprovider", *tests]
+    tests = [f"tests/engine/test_{name}.py" for name in names]
+    # A sanitizer is one more library that the engine, and a C program with it, need.
+    options = ["-q", "-s", "-p", "no:cacheprovider", "-k", "not needs_nothing_but and not c_program"]
+    command = [sys.executable, "-m", "pytest", *options, *tests]
     done = subprocess.run(command, cwd=repository, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0 and " passed" in done.stdout, done.stdout[-4000:] + done.stderr[-8000:]
