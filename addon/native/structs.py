@@ -174,6 +174,7 @@ class RenderDesc(ctypes.Structure):
         ("max_depth", c_int64),
         ("max_scatter", c_int64),
         ("passes", c_uint32),
+        ("adaptive", c_int),
     ]
 
 

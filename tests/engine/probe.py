@@ -478,3 +478,14 @@ def fall_rate(
     result = np.empty(3)
     _call("probe_rate", *arrays, np.uint64(len(arrays[0])), result)
     return float(result[0]), float(result[1]), float(result[2])
+
+
+def sample_plan(sums: ArrayLike) -> Array:
+    """(height, width, 8) samples a pass that adaptive sampling plans for replicates whose sums (height, width, 8, 3)
+    are these after two passes of each."""
+    values = _f32(sums)
+    height, width, replicates, channels = values.shape
+    assert (replicates, channels) == (8, 3)
+    rates = np.empty((height, width, 8), np.float32)
+    _call("probe_plan", values, width, height, rates)
+    return rates

@@ -78,9 +78,15 @@ std::string Session::report_json() {
         rate = "{\"power\": " + number(rate_.power) + ", \"low\": " + number(rate_.low) +
                ", \"high\": " + number(rate_.high) + ", \"confidence\": " + number(kErrorConfidence) + "}";
     const auto seconds_left = [](double seconds) { return seconds < 0 ? "null" : number(seconds); };
+    std::string adaptive = "null";
+    if (film_.adaptive()) {
+        const auto [fewest, most] = film_.samples_taken();
+        adaptive = "{\"fewest\": " + std::to_string(fewest) + ", \"most\": " + std::to_string(most) + "}";
+    }
     std::string out = "{\"engine\": " + quoted(GLIMMER_VERSION);
     out += ", \"integrator\": " + quoted(kIntegrators[settings_.integrator].name);
     out += ", \"spp\": " + std::to_string(p.samples);
+    out += ", \"adaptive\": " + adaptive;
     out += ", \"seed\": " + std::to_string(settings_.seed);
     out += ", \"threads\": " + std::to_string(settings_.threads);
     out += ", \"seconds\": {\"load\": 0, \"build\": " + number(scene_->build_seconds) +

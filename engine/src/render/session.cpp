@@ -44,7 +44,7 @@ void keep_denormals() {
 Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings &settings)
     : scene_(std::move(scene)), settings_(settings),
       integrator_(make_integrator(settings.integrator, *scene_, settings.limits)),
-      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes),
+      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes, settings.adaptive),
       dirty_(film_.tiles().size(), false) {
     if (!settings_.samples && settings_.seconds <= 0 && settings_.target_error <= 0)
         settings_.samples = kDefaultSamples;
@@ -59,13 +59,15 @@ Session::~Session() {
 }
 
 void Session::start() {
-    const std::unique_lock lock(mutex_);
+    std::unique_lock lock(mutex_);
     if (state_ != GLIMMER_READY)
         fail_state("the render was started before");
     state_ = GLIMMER_RUNNING;
     running_since_ = now();
-    plan_batch();
-    if (state_ != GLIMMER_RUNNING)
+    plan_film(lock);
+    if (state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED)
+        plan_batch();
+    if (state_ != GLIMMER_RUNNING && state_ != GLIMMER_PAUSED)
         return;
     for (uint32_t i = 0; i < settings_.threads; ++i)
         try {
@@ -274,6 +276,20 @@ void Session::judge_curve() {
     forecast_ = forecast(curve_, rate_, settings_.target_error);
 }
 
+/// Makes the plan of an adaptive film when it is time; called with the lock held, which is let go meanwhile.
+void Session::plan_film(std::unique_lock<std::mutex> &lock) {
+    if (!film_.adaptive() || film_.planned() || film_.min_samples() < kPlanPasses)
+        return;
+    between_batches_ = true;
+    lock.unlock();
+    const std::vector<PixelPlan> plan = plan_samples(film_, cancelled_);
+    if (!plan.empty())
+        film_.set_plan(plan);
+    lock.lock();
+    between_batches_ = false;
+    changed_.notify_all();
+}
+
 /// Called by the worker that finished the batch's last tile, with the lock held; the others wait meanwhile.
 void Session::end_batch(std::unique_lock<std::mutex> &lock) {
     const uint64_t samples = batch_.first + batch_.count;
@@ -283,10 +299,13 @@ void Session::end_batch(std::unique_lock<std::mutex> &lock) {
     if (state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED) {
         const bool met = !curve_.empty() && curve_.back().meets(settings_.target_error);
         const bool late = settings_.seconds > 0 && elapsed() >= settings_.seconds;
-        if (met || late)
+        if (met || late) {
             finish(GLIMMER_FINISHED);
-        else
-            plan_batch();
+        } else {
+            plan_film(lock);
+            if (state_ == GLIMMER_RUNNING || state_ == GLIMMER_PAUSED)
+                plan_batch();
+        }
     }
     slowest_tile_ = 0;
     between_batches_ = false;
@@ -305,23 +324,29 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
                                   std::min(kBlockSize, area.width - bx), std::min(kBlockSize, area.height - by)};
             for (uint64_t s = first; s < end; ++s) {
                 std::unique_ptr<const BlockData> shared;
-                if (!batch_.passes.empty())
-                    shared = integrator_->prepare_block(*batch_.passes[s - batch_.first], block, rays);
                 for (uint32_t y = block.y; y < block.y + block.height; ++y)
                     for (uint32_t x = block.x; x < block.x + block.width; ++x) {
-                        if (stop_.load(std::memory_order_relaxed) || (x % 16 == 0 && now() > deadline))
+                        if (x % 16 == 0 && now() > deadline)
                             return false;
-                        Sampler sampler(settings_.seed, x, y, uint32_t(s % kReplicates), uint32_t(s / kReplicates));
-                        const CameraRay camera = sample_camera_ray(*scene_, x, y, sampler.stratified_2d(kSetPixel),
-                                                                   sampler.stratified_2d(kSetLens));
-                        const FilmSample value = integrator_->sample(camera, sampler, shared.get(), rays);
-                        if (value.unfinished && stop_.load(std::memory_order_relaxed))
-                            return false;
-                        unfinished += value.unfinished ? 1 : 0;
-                        if (is_finite(value.radiance()))
-                            tile.add(x - settings.crop_x - area.x, y - settings.crop_y - area.y, s, value);
-                        else
-                            invalid.push_back({x, y, s});
+                        const uint32_t tile_x = x - settings.crop_x - area.x, tile_y = y - settings.crop_y - area.y;
+                        const SampleRange samples = tile.samples_of_pass(tile_x, tile_y, s);
+                        for (uint64_t i = samples.first; i < samples.first + samples.count; ++i) {
+                            if (stop_.load(std::memory_order_relaxed))
+                                return false;
+                            if (!shared && !batch_.passes.empty())
+                                shared = integrator_->prepare_block(*batch_.passes[s - batch_.first], block, rays);
+                            Sampler sampler(settings_.seed, x, y, uint32_t(s % kReplicates), uint32_t(i));
+                            const CameraRay camera = sample_camera_ray(*scene_, x, y, sampler.stratified_2d(kSetPixel),
+                                                                       sampler.stratified_2d(kSetLens));
+                            const FilmSample value = integrator_->sample(camera, sampler, shared.get(), rays);
+                            if (value.unfinished && stop_.load(std::memory_order_relaxed))
+                                return false;
+                            unfinished += value.unfinished ? 1 : 0;
+                            if (is_finite(value.radiance()))
+                                tile.add(tile_x, tile_y, s, value);
+                            else
+                                invalid.push_back({x, y, s});
+                        }
                     }
             }
         }

@@ -23,6 +23,7 @@ struct RenderSettings {
     uint64_t seed = 0;
     uint32_t threads = 0, tile_size = 64, passes = 1;
     DepthLimits limits;
+    bool adaptive = false; ///< film/sample_plan.h
 };
 
 struct InvalidSample {
@@ -65,6 +66,7 @@ class Session {
     void take_tile(size_t tile, std::unique_lock<std::mutex> &lock);
     void add_curve_point(uint64_t samples, std::unique_lock<std::mutex> &lock);
     void judge_curve();
+    void plan_film(std::unique_lock<std::mutex> &lock);
     void end_batch(std::unique_lock<std::mutex> &lock);
     void plan_batch();
     void finish(glimmer_render_state state);

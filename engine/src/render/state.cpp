@@ -8,11 +8,11 @@ namespace glimmer {
 
 namespace {
 
-constexpr uint64_t kStateMagic = 0x32304d494c47u; // "GLIM02"
+constexpr uint64_t kStateMagic = 0x33304d494c47u; // "GLIM03"
 
 /// Everything but the curve and the film, which follow; the checksum of all that comes after it stands first.
 struct StateHead {
-    uint64_t magic, seed, integrator, max_depth, max_scatter;
+    uint64_t magic, seed, integrator, max_depth, max_scatter, adaptive;
     uint64_t rays, curve_size, invalid_count, unfinished_count, first_invalid_known;
     InvalidSample first_invalid;
     double seconds, cpu_seconds;
@@ -42,6 +42,7 @@ std::vector<uint8_t> Session::save() {
     head.integrator = settings_.integrator;
     head.max_depth = settings_.limits.depth;
     head.max_scatter = settings_.limits.scatter;
+    head.adaptive = settings_.adaptive;
     head.rays = rays_;
     head.curve_size = curve_.size();
     head.invalid_count = invalid_count_;
@@ -78,6 +79,9 @@ void Session::load(const uint8_t *data, size_t size) {
         fail_argument("the saved state is of another seed or integrator");
     if (head.max_depth != settings_.limits.depth || head.max_scatter != settings_.limits.scatter)
         fail_argument("the saved state is of another max_depth or max_scatter");
+    if (head.adaptive != uint64_t(settings_.adaptive))
+        fail_argument(std::string("the saved state is of a render ") + (head.adaptive ? "with" : "without") +
+                      " adaptive sampling, and this one is " + (head.adaptive ? "without" : "with"));
     if (head.curve_size > size_t(end - at) / sizeof(CurvePoint) || head.first_invalid_known > 1)
         fail_argument("the saved state is damaged");
     std::vector<CurvePoint> curve(head.curve_size, CurvePoint{});
