@@ -73,6 +73,8 @@ def summary(report: dict[str, Any]) -> list[str]:
     if "spp" in report:
         seconds = report.get("seconds", {})
         lines.append(f"{report['spp']} samples in {seconds.get('render', 0.0):.1f} s")
+    if adaptive := report.get("adaptive"):
+        lines.append(f"Adaptive sampling: pixels took {adaptive['fewest']} to {adaptive['most']} samples")
     export = report["export"]
     lines.append(f"Scene read in {export['seconds']:.2f} s, {export['bytes'] / 2**20:.1f} MB")
     if report.get("biased_by"):

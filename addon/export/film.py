@@ -98,5 +98,6 @@ def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_p
         tile_size=settings.tile_size,
         max_depth=settings.max_depth if settings.use_max_depth else None,
         max_scatter=settings.max_scatter if settings.use_max_scatter else None,
+        adaptive=settings.use_adaptive,
         passes=names,
     )

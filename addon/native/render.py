@@ -71,6 +71,7 @@ class NativeRender:
         desc.seed, desc.threads, desc.tile_size = settings.seed, settings.threads, settings.tile_size
         desc.max_depth = -1 if settings.max_depth is None else settings.max_depth
         desc.max_scatter = -1 if settings.max_scatter is None else settings.max_scatter
+        desc.adaptive = settings.adaptive
         desc.passes = 0
         for name in settings.passes:
             desc.passes |= 1 << self._pass(name)[0]

@@ -222,6 +222,7 @@ class RenderSettings:
     tile_size: int = 0  # 0: the engine's choice
     max_depth: int | None = None
     max_scatter: int | None = None
+    adaptive: bool = False
     passes: tuple[str, ...] = ("combined",)  # the engine's names
 
 

@@ -26,6 +26,7 @@ class GLIMMER_PT_sampling(GlimmerPanel, bpy.types.Panel):
         _limit(layout, settings, "use_samples", "samples")
         _limit(layout, settings, "use_seconds", "seconds")
         _limit(layout, settings, "use_target_error", "target_error")
+        layout.prop(settings, "use_adaptive")
         layout.prop(settings, "viewport_samples")
         row = layout.row(align=True)
         row.prop(settings, "seed")

@@ -22,6 +22,7 @@ struct RenderOptions {
     uint32_t passes = 0;            ///< bit set of (1 << glimmer_pass)
     std::optional<std::filesystem::path> checkpoint, report, curve;
     double checkpoint_seconds = 30; ///< between two saves to the checkpoint
+    bool adaptive = false;          ///< sampling
     bool quiet = false;
 };
 

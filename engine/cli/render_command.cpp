@@ -37,6 +37,7 @@ RenderHandle create_render(glimmer_scene *scene, const DepthLimits &limits, cons
     desc.seed = options.seed;
     desc.threads = options.threads;
     desc.tile_size = options.tile;
+    desc.adaptive = options.adaptive;
     desc.max_depth = limits.max_depth;
     desc.max_scatter = limits.max_scatter;
     desc.passes = options.passes | 1u << GLIMMER_PASS_COMBINED | 1u << GLIMMER_PASS_STDERR;
@@ -101,11 +102,20 @@ void show_warnings(glimmer_scene *scene, const std::string &file, ProgressLine &
         line.say(file + ": warning: " + warning);
 }
 
-std::string summary(const RenderOptions &options, const glimmer_progress &progress) {
+/// "adaptive sampling: pixels took 16 to 210 samples", or "".
+std::string adaptive_text(const Report &report) {
+    const Report counts = report.value("adaptive", Report());
+    if (!counts.is_object())
+        return "";
+    return "adaptive sampling: pixels took " + counts["fewest"].dump() + " to " + counts["most"].dump() + " samples";
+}
+
+std::string summary(const RenderOptions &options, const glimmer_progress &progress, const Report &report) {
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%.2f s", progress.seconds);
     std::string text = options.output.string() + ": " + std::to_string(progress.samples) + " spp in " + seconds;
-    for (const std::string &part : {error_text(progress), tails_text(progress), rate_text(progress)})
+    for (const std::string &part :
+         {error_text(progress), tails_text(progress), rate_text(progress), adaptive_text(report)})
         if (!part.empty())
             text += ", " + part;
     return text;
@@ -166,10 +176,10 @@ int run_render(const RenderOptions &options) {
         line.complain(options.output.string() + ": not written: interrupted before the first sample was finished");
         return kInterrupted;
     }
-    write_results(options, scene, render.get(), progress,
-                  make_report(render.get(), load_seconds, build_seconds, scene.left_out));
+    const Report report = make_report(render.get(), load_seconds, build_seconds, scene.left_out);
+    write_results(options, scene, render.get(), progress, report);
     const bool cut_short = progress.state != GLIMMER_FINISHED;
-    line.say(summary(options, progress) + (cut_short ? " (interrupted)" : ""));
+    line.say(summary(options, progress, report) + (cut_short ? " (interrupted)" : ""));
     return cut_short ? kInterrupted : kDone;
 }
 

@@ -56,13 +56,13 @@ def settings() -> None:
     ours = scene.glimmer
     # Tails that are too heavy to certify would keep it from stopping: then the samples do.
     samples, ours.samples = ours.samples, 4096
-    ours.use_target_error, ours.target_error = True, 0.02
+    ours.use_target_error, ours.target_error, ours.use_adaptive = True, 0.02, True
     scene.render.threads_mode, scene.render.threads = "FIXED", 1
     inside.render(OUT / "settings.exr")
     facts["target_report"] = dict(reports.last())
     facts["target_summary"] = reports.error_summary(reports.last())
     ours.samples, ours.use_samples = samples, False
-    ours.use_target_error, ours.use_seconds, ours.seconds = False, True, 0.5
+    ours.use_target_error, ours.use_seconds, ours.seconds, ours.use_adaptive = False, True, 0.5, False
     ours.integrator, ours.seed, ours.use_max_depth, ours.max_depth = "report", 7, True, 1
     scene.render.threads_mode = "AUTO"
     inside.render(OUT / "settings.exr")

@@ -163,10 +163,12 @@ def test_an_error_target_is_met(facts: dict[str, Any]) -> None:
     assert report["error"]["high"] <= 0.02
     assert report["threads"] == 1
     assert report["integrator"] == "path"
+    assert 0 < report["adaptive"]["fewest"] <= report["adaptive"]["most"]
 
 
 def test_a_time_limit_and_the_rest_of_the_settings_arrive(facts: dict[str, Any]) -> None:
     report = facts["time_report"]
+    assert report["adaptive"] is None
     # One pass over 60 x 40 pixels takes some milliseconds; the limit is looked at between passes.
     assert 0.4 < report["seconds"]["render"] < 5.0
     assert (report["integrator"], report["seed"]) == ("report", 7)

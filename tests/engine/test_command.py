@@ -364,6 +364,30 @@ def test_progress_on_a_terminal(tmp_path: Path) -> None:
     assert "relMSE" in shown.decode() and shown.decode().count("\n") == 1
 
 
+def test_adaptive(tmp_path: Path) -> None:
+    """Told of at the end and in the report; with a checkpoint the very bits; merged as any other."""
+    common = ["--adaptive", "--aov", "sample_count", "--report", tmp_path / "r.json"]
+    whole = render(tmp_path, hazy_moon(), "--spp", 30, *common, name="whole")
+    counts = whole.channels["sample_count.X"]
+    told = json.loads((tmp_path / "r.json").read_text())["adaptive"]
+    assert told == {"fewest": counts.min(), "most": counts.max()} and counts.min() < 30 < counts.max()
+    for samples in (13, 21, 30):
+        part = render(tmp_path, hazy_moon(), "--spp", samples, *common, "--checkpoint", tmp_path / "c", name="part")
+    assert same_bits(whole, part)
+    other = render(tmp_path, hazy_moon(), "--spp", 20, "--seed", 1, *common, name="other")
+    assert merge(tmp_path, "whole", "other").returncode == 0
+    merged = read_exr(tmp_path / "merged.exr")
+    assert np.array_equal(merged.channels["sample_count.X"], counts + other.channels["sample_count.X"])
+    mean = 0.6 * whole.rgb.astype(np.float64) + 0.4 * other.rgb.astype(np.float64)
+    assert merged.rgb == pytest.approx(mean, rel=1e-6, abs=1e-9)
+    path = write_scene(tmp_path, hazy_moon())
+    for options, words in ((common[:1], "adaptive sampling: pixels took"), ([], None)):
+        done = run_glimmer(path, "-o", tmp_path / "out.exr", "--spp", 18, *options)
+        assert (words in done.stderr) if words else ("adaptive sampling" not in done.stderr)
+    refused = run_glimmer(path, "-o", tmp_path / "out.exr", "--spp", 40, "--checkpoint", tmp_path / "c")
+    assert refused.returncode == 1 and "with adaptive sampling, and this one is without" in refused.stderr
+
+
 # ---- checkpoints ---------------------------------------------------------------------------------------------------
 
 
