@@ -61,6 +61,7 @@ def settings() -> None:
     inside.render(OUT / "settings.exr")
     facts["target_report"] = dict(reports.last())
     facts["target_summary"] = reports.error_summary(reports.last())
+    facts["adaptive_summary"] = reports.summary(reports.last())
     ours.samples, ours.use_samples = samples, False
     ours.use_target_error, ours.use_seconds, ours.seconds, ours.use_adaptive = False, True, 0.5, False
     ours.integrator, ours.seed, ours.use_max_depth, ours.max_depth = "report", 7, True, 1

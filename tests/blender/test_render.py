@@ -163,7 +163,9 @@ def test_an_error_target_is_met(facts: dict[str, Any]) -> None:
     assert report["error"]["high"] <= 0.02
     assert report["threads"] == 1
     assert report["integrator"] == "path"
-    assert 0 < report["adaptive"]["fewest"] <= report["adaptive"]["most"]
+    fewest, most = report["adaptive"]["fewest"], report["adaptive"]["most"]
+    assert 0 < fewest <= most
+    assert f"Adaptive sampling: pixels took {fewest} to {most} samples" in facts["adaptive_summary"]
 
 
 def test_a_time_limit_and_the_rest_of_the_settings_arrive(facts: dict[str, Any]) -> None:

@@ -63,6 +63,16 @@ def test_what_has_no_noise_is_planned_all_the_same() -> None:
         assert plan[0, 0, replicate] == (LOWEST if highest > 1 else 1)
 
 
+def test_sums_out_of_range_are_planned_all_the_same() -> None:
+    """Infinite in one pixel; so large that their squares are infinite as float; infinite in all."""
+    sums = noise(4)
+    sums[3, 5, 2] = np.inf
+    for values in (sums, noise(4) * np.float32(1e36), np.full((9, 7, 8, 3), np.inf)):
+        plan = sample_plan(values)
+        assert ((plan >= LOWEST) & (plan <= HIGHEST)).all()
+    assert np.allclose(sample_plan(noise(4) * np.float32(1e36)), sample_plan(noise(4)), atol=2 / 4096)
+
+
 @cache
 def scene() -> Scene:
     return Scene(everything(WIDTH, HEIGHT))

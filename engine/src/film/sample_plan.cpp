@@ -34,7 +34,7 @@ double score(const Replicates &sums, uint32_t planned, double epsilon) {
         const double scale = mean * mean + 3 * variance / kPlanners + epsilon;
         result += scale > 0 ? variance / scale : 0;
     }
-    return result;
+    return std::isfinite(result) ? result : 0; // sums that left the range of float
 }
 
 double mean_of_planners(const Film &film, uint32_t planned) {

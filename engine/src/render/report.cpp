@@ -42,6 +42,12 @@ std::string list(const std::vector<std::string> &items) {
 
 std::string Session::report_json() {
     const glimmer_progress p = progress();
+    // Of a large picture this takes a while: workers must not wait for it.
+    std::string adaptive = "null";
+    if (film_.adaptive()) {
+        const auto [fewest, most] = film_.samples_taken();
+        adaptive = "{\"fewest\": " + std::to_string(fewest) + ", \"most\": " + std::to_string(most) + "}";
+    }
     const std::lock_guard lock(mutex_);
     constexpr auto no_limit = std::numeric_limits<uint32_t>::max();
     std::vector<std::string> biased;
@@ -78,11 +84,6 @@ std::string Session::report_json() {
         rate = "{\"power\": " + number(rate_.power) + ", \"low\": " + number(rate_.low) +
                ", \"high\": " + number(rate_.high) + ", \"confidence\": " + number(kErrorConfidence) + "}";
     const auto seconds_left = [](double seconds) { return seconds < 0 ? "null" : number(seconds); };
-    std::string adaptive = "null";
-    if (film_.adaptive()) {
-        const auto [fewest, most] = film_.samples_taken();
-        adaptive = "{\"fewest\": " + std::to_string(fewest) + ", \"most\": " + std::to_string(most) + "}";
-    }
     std::string out = "{\"engine\": " + quoted(GLIMMER_VERSION);
     out += ", \"integrator\": " + quoted(kIntegrators[settings_.integrator].name);
     out += ", \"spp\": " + std::to_string(p.samples);
