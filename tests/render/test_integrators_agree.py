@@ -107,6 +107,13 @@ def light_by_way_of_metal(g: float = 0) -> Builder:
     return scene.sphere((-1, 4, 1.2), 0.9, d.Light(grey(10)))
 
 
+def light_close_above_metal() -> Builder:
+    """A layer of fog on smooth metal: half of its light was thrown there from a shorter way than connections count."""
+    scene = Builder(camera((3, -3, 0.3), (3, 4, 0.3), 4), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
+    scene.mesh(floor(0, 8, (3, 4)), d.Conductor(0.05, f0=WHITE))
+    return scene.sphere((3, 4, 3), 0.5, d.Light(grey(10)))
+
+
 def metal_seen_in_a_mirror() -> Builder:
     """The same seen in a mirror, where nothing is splatted: what no vertex holds of it is brought by paths alone."""
     scene = Builder(camera((3, -2, 2.2), (3, -4, 2.2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
@@ -132,6 +139,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "light by way of metal": light_by_way_of_metal,
     "light by way of metal, in a mirror": metal_seen_in_a_mirror,
     "light by way of metal, forward": lambda: light_by_way_of_metal(0.4),
+    "light close above metal": light_close_above_metal,
     "far forward": lambda: field(d.Medium((0.0, 0.01, 0.02), (0.06, 0.05, 0.05), 0.85)),
     "glints through a lens": glints_through_a_lens,
     "thousand lights": thousand_lights,

@@ -44,10 +44,9 @@ class LightPath {
         Ray ray;
         Rgb power;
         GlassStack glass;
-        bool sharp;            ///< straight from a light without size
-        uint32_t chain = 0;    ///< mirrors and glass in a row
-        float unheld = 0;      ///< the part of the power that no vertex holds where the ray began; 0 but on surfaces
-        bool specular = false; ///< there; else that part is a vertex's, and counts as its connections do
+        bool sharp;         ///< straight from a light without size
+        uint32_t chain = 0; ///< mirrors and glass in a row
+        float unheld = 0;   ///< the part of the power that no vertex holds where the ray began; 0 but on surfaces
     };
 
     void segment(Branch path) {
@@ -69,7 +68,7 @@ class LightPath {
     void shine(const Branch &path) {
         if (!(path.unheld > 0) || !is_seen(scene_, path.ray))
             return;
-        Beam beam{path.ray, path.power, path.unheld, path.specular};
+        Beam beam{path.ray, path.power, path.unheld};
         ++rays_.rays;
         if (const auto hit = scene_.accel->intersect(path.ray))
             beam.ray.t_max = hit->t;
@@ -185,7 +184,7 @@ class LightPath {
                                            (dot(direction, v.geometric) / std::max(s->wi.z, 1e-7f)) /
                                            (bent ? 1 - kTrueNormal : 1.0f));
                 const float held = s->specular ? 0 : held_share(bsdf, s->wi, incoming);
-                leave(path, surface, direction, 1 - held, s->specular);
+                leave(path, surface, direction, 1 - held);
                 return true;
             }
         }
@@ -195,14 +194,13 @@ class LightPath {
         density = (1 - kTrueNormal) * density + kTrueNormal * pdf_cosine_hemisphere(cosine);
         const Connection c = connect(v, bsdf, direction);
         path.power *= c.factor * (1 / density);
-        leave(path, surface, direction, 1 - c.held, false);
+        leave(path, surface, direction, 1 - c.held);
         return true;
     }
 
-    void leave(Branch &path, const Interaction &surface, const Vec3f &direction, float unheld, bool specular) {
+    void leave(Branch &path, const Interaction &surface, const Vec3f &direction, float unheld) {
         path.sharp = false;
         path.unheld = unheld;
-        path.specular = specular;
         path.ray = {surface.origin_towards(direction), direction};
     }
 
@@ -224,7 +222,7 @@ class LightPath {
             return;
         if (s.transmitted)
             path.glass = crossing.beyond;
-        leave(path, surface, direction, 1, true);
+        leave(path, surface, direction, 1);
         if (scene_.medium && path.glass.empty())
             shine(path);
         branches_.push_back(path);

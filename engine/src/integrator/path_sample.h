@@ -132,9 +132,12 @@ class PathSample {
     // -- Surfaces
     // --------------------------------------------------------------------------------------------------------
     void note_first_surface(const Interaction &surface);
-    /// What of a surface is left to scatter: rough, where splats bring what mirrors and glass do; unheld, where light
-    /// vertices have brought their share (held_share.h).
-    enum class Lobes { all, rough, unheld };
+    /// What of a surface is left to scatter: held, where splats bring the rest; unheld, where light vertices have
+    /// brought theirs (held_share.h).
+    enum class Lobes { all, held, unheld };
+    static float left_of(Lobes lobes, float held) {
+        return lobes == Lobes::all ? 1 : lobes == Lobes::held ? held : 1 - held;
+    }
     void scatter_at_surface(PathState &state, const Interaction &surface, Lobes lobes = Lobes::all);
     /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
     /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
@@ -145,7 +148,7 @@ class PathSample {
     }
     /// The light of `branches` samples of the BSDF comes in beside it.
     void sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
-                          const Vec3f &geometric, const Vec3f &wo, uint32_t branches, bool unheld);
+                          const Vec3f &geometric, const Vec3f &wo, uint32_t branches, Lobes lobes);
     void pass_glass(PathState &state, const Interaction &surface, const Material &material);
 
     // -- Shared

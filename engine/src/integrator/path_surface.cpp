@@ -27,13 +27,12 @@ void PathSample::note_first_surface(const Interaction &surface) {
 void PathSample::scatter_at_surface(PathState &state, const Interaction &surface, Lobes lobes) {
     const Material &material = scene_.materials[surface.material];
     if (material.kind == MaterialKind::glass) {
-        if (lobes != Lobes::rough)
+        if (lobes != Lobes::held)
             pass_glass(state, surface, material);
         return;
     }
     const Bsdf bsdf = scene_.bsdf(material);
-    const bool unheld = lobes == Lobes::unheld;
-    if (bsdf.empty() || (unheld && is_held(peak(bsdf))))
+    if (bsdf.empty() || (lobes == Lobes::unheld && is_held(peak(bsdf))))
         return;
     const bool camera = state.depth == 0;
     const Vec3f wo = -state.ray.direction;
@@ -53,12 +52,12 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
     // Where mirrors could send each branch to the next surface that branches, one goes on.
     const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? options_.surface_branches : 1;
     if (!is_specular(bsdf))
-        sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, branches, unheld);
+        sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, branches, lobes);
 
     for (uint32_t k = 0; k < branches; ++k) {
         const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe + 2 * k) : sampler_.next_1d(),
                               camera ? sampler_.stratified_2d(kSetBsdf + 2 * k) : sampler_.next_2d());
-        if (!s || (s->specular && lobes == Lobes::rough))
+        if (!s || (s->specular && lobes == Lobes::held))
             continue;
         const Vec3f wi = normalize(frame.to_world(s->wi));
         if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
@@ -66,8 +65,8 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
         PathState next = state;
         next.beta *= s->weight * (1 / float(branches));
         next.exempt /= float(branches);
-        if (unheld && !s->specular)
-            next.beta *= 1 - held_share(s->weight * s->pdf, wo_local.z, s->wi.z);
+        if (lobes != Lobes::all && !s->specular)
+            next.beta *= left_of(lobes, held_share(s->weight * s->pdf, wo_local.z, s->wi.z));
         if (!survives(next, surface.position) || (s->specular && !survives_chain(next)))
             continue;
         next.ray = {surface.origin_towards(wi), wi};
@@ -90,7 +89,7 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
 }
 
 void PathSample::sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
-                                  const Vec3f &geometric, const Vec3f &wo, uint32_t branches, bool unheld) {
+                                  const Vec3f &geometric, const Vec3f &wo, uint32_t branches, Lobes lobes) {
     if (scene_.lights.size() == 0)
         return;
     const bool camera = state.depth == 0, all = state.direct_view();
@@ -117,8 +116,8 @@ void PathSample::sample_lights_at(const PathState &state, const Interaction &sur
         Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
         if (fog)
             value *= fog->transmittance(light->distance);
-        if (unheld)
-            value *= 1 - held_share(f_cos, wo.z, wi.z);
+        if (lobes != Lobes::all)
+            value *= left_of(lobes, held_share(f_cos, wo.z, wi.z));
         if (!light->delta && !is_black(value))
             value *= balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
         if (!is_black(value))

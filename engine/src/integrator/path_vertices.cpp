@@ -67,7 +67,7 @@ void PathSample::compensate(PathState &state, const Homogeneous &fog) {
         const Interaction surface = scene_.interaction(state.ray, *hit);
         const bool within = hit->t <= surface_reach;
         if (within || !splatted)
-            scatter_at_surface(state, surface, !within ? Lobes::unheld : splatted ? Lobes::rough : Lobes::all);
+            scatter_at_surface(state, surface, !within ? Lobes::unheld : splatted ? Lobes::held : Lobes::all);
     }
 }
 

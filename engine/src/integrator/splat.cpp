@@ -111,9 +111,9 @@ void splat(const Scene &scene, const Beam &beam, const PoolSettings &settings, S
         const float pdf = along.pdf(from_foot) * kPoints;
         if (!(pdf > 0) || !(t >= 0 && t < kInfinity))
             continue;
-        const float share = beam.specular ? beam.unheld : beam.unheld * connected_share(t, settings.surface_bound);
         splat_point(scene, beam.ray.origin + beam.ray.direction * t, beam.ray.direction,
-                    beam.power * fog.sigma_s * fog.transmittance(t) * (share / pdf), settings, sampler, rays, out);
+                    beam.power * fog.sigma_s * fog.transmittance(t) * (beam.unheld / pdf), settings, sampler, rays,
+                    out);
     }
 }
 

@@ -27,8 +27,7 @@ inline float splat_share(float t, const PoolSettings &settings) {
 struct Beam {
     Ray ray; ///< t_max: its end
     Rgb power;
-    float unheld;  ///< the share of the power that no vertex holds
-    bool specular; ///< else that share would be a vertex's, and counts as its connections do
+    float unheld; ///< the share of the power that no vertex holds
 };
 
 /// Whether any of it can be in the picture, whatever stands in the way.
