@@ -31,6 +31,7 @@ PAGE = os.sysconf("SC_PAGE_SIZE")
 
 glimmer = inside.enable()
 from glimmer.native import render as native  # noqa: E402 - the add-on's name inside Blender
+from glimmer.scene.problems import GlimmerError  # noqa: E402
 from glimmer.viewport import redraw  # noqa: E402
 
 choice = random.Random(5)
@@ -95,11 +96,15 @@ def is_rendering() -> bool:
 
 
 def stop() -> str:
-    renders = [item for item in native._open_renders if item not in _views_renders()]
-    if renders and choice.random() < 0.5:
-        facts["film_bytes"] = max(facts["film_bytes"], renders[0].poll().peak_bytes)
-        renders[0].cancel()
-        return "cancel"
+    if choice.random() < 0.5:
+        try:
+            renders = [item for item in list(native._open_renders) if item not in _views_renders()]
+            if renders:
+                facts["film_bytes"] = max(facts["film_bytes"], renders[0].poll().peak_bytes)
+                renders[0].cancel()
+                return "cancel"
+        except (GlimmerError, RuntimeError):  # Blender's thread has opened or closed one meanwhile
+            return "too late"
     subprocess.run(["xdotool", "key", "Escape"], check=True, timeout=20)
     return "escape"
 
@@ -141,6 +146,7 @@ def rounds() -> Iterator[Callable[[], bool]]:
                 "bytes": int(Path("/proc/self/statm").read_text().split()[1]) * PAGE,
             }
         )
+        (OUT / "facts.json").write_text(json.dumps(facts))
     hide_view()
     yield lambda: not redraw.open_views() and all(item.name != "Glimmer view" for item in threading.enumerate())
     facts["tasks_at_the_end"] = len(list(Path("/proc/self/task").iterdir()))
@@ -152,24 +158,31 @@ step: list[Callable[[], bool]] = []
 deadline = [time.monotonic() + COUNT * MOST_SECONDS_A_RENDER]
 
 
-def finish() -> None:
+def finish() -> float | None:
+    """Quits, which Blender refuses while it renders: then stops that, and wants to be asked again."""
     (OUT / "facts.json").write_text(json.dumps(facts))
-    bpy.ops.wm.quit_blender()
+    for item in list(native._open_renders):
+        item.cancel()
+    try:
+        bpy.ops.wm.quit_blender()
+    except RuntimeError:
+        return 0.5
+    return None
 
 
 def advance() -> float | None:
+    if "is_finished" in facts or "error" in facts:
+        return finish()
     try:
         if time.monotonic() > deadline[0]:
             raise TimeoutError("the rounds did not end")
         if not step or step[0]():
             step[:] = [next(script)]
-        return 0.01
     except StopIteration:
         facts["is_finished"] = True
     except Exception:  # noqa: BLE001 - it belongs into the test's output, and Blender must end
         facts["error"] = traceback.format_exc()
-    finish()
-    return None
+    return 0.01
 
 
 bpy.app.timers.register(advance, first_interval=1.0, persistent=True)
