@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers at the end of float32. Embree ends the whole process, Blender with it, on a ray that is not valid."""
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -55,3 +56,28 @@ def test_far_beyond(key: tuple[str | int, ...], value: Any, integrator: str, tmp
     done = run_glimmer(path, "-o", tmp_path / "out.exr", "--spp", 2, "--integrator", integrator)
     assert done.returncode in (0, 1), done.stderr
     assert "Assertion" not in done.stderr
+
+
+@pytest.mark.parametrize("integrator", ["path", "report"])
+def test_a_few_spheres_alone(integrator: str, tmp_path: Path) -> None:
+    """Up to eight are tried one by one, more stand in a BVH: the same bits."""
+    materials = {
+        "grey": {"type": "lambert", "albedo": 0.5},
+        "glass": {"type": "glass", "ior": 1.5},
+        "moon": {"type": "light", "radiance": [3, 2, 1]},
+    }
+    spheres: list[dict[str, Any]] = [
+        {"center": [1.1 * (i % 4) - 1.6, 0.4 * i, 1.6 * (i // 4) - 0.8], "radius": 0.6, "material": material}
+        for i, material in enumerate(("moon", "grey", "glass", "grey", "grey", "glass", "grey", "grey"))
+    ]
+    far = {"center": [0, -1e5, 0], "radius": 1e-3, "material": "grey"}
+    content = scene(
+        film={"width": 24, "height": 16}, materials=materials, spheres=spheres, environment={"radiance": 0.3}
+    )
+    pictures = []
+    for name, more in (("few", []), ("many", [far])):
+        settings = ("--spp", 16, "--integrator", integrator, "--report", tmp_path / f"{name}.json")
+        pictures.append(scenes.render(tmp_path, {**content, "spheres": spheres + more}, *settings).rgb)
+        said = json.loads((tmp_path / f"{name}.json").read_text())["left_out"]
+        assert ("a few spheres alone: no BVH" in said) == (name == "few")
+    assert np.unique(pictures[0]).size > 40 and np.array_equal(*pictures)

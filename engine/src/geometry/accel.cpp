@@ -13,6 +13,7 @@ namespace {
 // Embree's own limit of a coordinate. Debian's build asserts it for every ray, also in an instance's space, and a
 // failed assertion ends the whole process, Blender with it.
 constexpr float kMostCoordinate = 1.844e18f;
+constexpr float kNearest = std::numeric_limits<float>::min(); // not 0: a camera on a surface is not within it
 constexpr double kLeastVolume = 0x1p-20; // of the rows' lengths' product; below, Embree's float32 inverse is noise
 
 struct Context {
@@ -39,15 +40,18 @@ void sphere_bounds(const RTCBoundsFunctionArguments *args) {
 }
 
 /// The first root within the ray's range, as a float that stays inside it.
-std::optional<float> first_root(const Sphere &sphere, const RTCRay &ray) {
-    const auto roots = intersect_sphere(sphere, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z});
+std::optional<float> first_root(const Sphere &sphere, const Vec3d &origin, const Vec3d &direction, double t_max) {
+    const auto roots = intersect_sphere(sphere, origin, direction);
     if (!roots)
         return std::nullopt;
-    if (roots->near > double(ray.tnear) && roots->near <= double(ray.tfar))
+    if (roots->near > double(kNearest) && roots->near <= t_max)
         return float(roots->near);
-    if (roots->far > double(ray.tnear) && roots->far <= double(ray.tfar))
+    if (roots->far > double(kNearest) && roots->far <= t_max)
         return float(roots->far);
     return std::nullopt;
+}
+std::optional<float> first_root(const Sphere &sphere, const RTCRay &ray) {
+    return first_root(sphere, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, double(ray.tfar));
 }
 
 void sphere_intersect(const RTCIntersectFunctionNArguments *args) {
@@ -78,7 +82,7 @@ RTCRay embree_ray(const Ray &ray) {
     RTCRay r{};
     r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
     r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-    r.tnear = std::numeric_limits<float>::min(); // not 0: a camera on a surface is not within it
+    r.tnear = kNearest;
     r.tfar = ray.t_max;
     r.mask = ~0u;
     return r;
@@ -163,9 +167,30 @@ bool Accel::can_trace(const Ray &ray) const {
            std::abs(d.y) <= 2 && std::abs(d.z) <= 2 && !std::isnan(ray.t_max);
 }
 
+std::optional<Hit> Accel::nearest_sphere(Ray ray) const {
+    std::optional<Hit> hit;
+    const Vec3d origin(ray.origin), direction(ray.direction);
+    for (uint32_t i = 0; i < spheres_.size(); ++i)
+        if (const auto t = first_root(spheres_[i], origin, direction, double(ray.t_max))) {
+            ray.t_max = *t;
+            hit = Hit{*t, kNone, i, 0, 0};
+        }
+    return hit;
+}
+
+bool Accel::behind_sphere(const Ray &ray, uint32_t ignored_sphere) const {
+    const Vec3d origin(ray.origin), direction(ray.direction);
+    for (uint32_t i = 0; i < spheres_.size(); ++i)
+        if (i != ignored_sphere && first_root(spheres_[i], origin, direction, double(ray.t_max)))
+            return true;
+    return false;
+}
+
 std::optional<Hit> Accel::intersect(const Ray &ray) const {
     if (!can_trace(ray))
         return std::nullopt;
+    if (without_bvh())
+        return nearest_sphere(ray);
     RTCRayHit query{};
     query.ray = embree_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -188,6 +213,8 @@ std::optional<Hit> Accel::intersect(const Ray &ray) const {
 bool Accel::occluded(const Ray &ray, uint32_t ignored_sphere) const {
     if (!can_trace(ray))
         return false;
+    if (without_bvh())
+        return behind_sphere(ray, ignored_sphere);
     RTCRay query = embree_ray(ray);
     Context context{};
     rtcInitIntersectContext(&context.embree);

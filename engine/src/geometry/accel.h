@@ -45,6 +45,8 @@ class Accel {
     /// Whether anything stands before t_max. `ignored_sphere` is looked through (the light a shadow ray aims at).
     bool occluded(const Ray &ray, uint32_t ignored_sphere = kNone) const;
 
+    /// Nothing but a handful of spheres: trying them one by one is faster than a BVH and gives the same bits.
+    bool without_bvh() const { return instances_.empty() && spheres_.size() <= kFewSpheres; }
     /// Of all but the meshes.
     size_t bytes() const;
     const std::vector<Instance> &instances() const { return instances_; }
@@ -52,6 +54,10 @@ class Accel {
 
   private:
     bool can_trace(const Ray &ray) const;
+    std::optional<Hit> nearest_sphere(Ray ray) const;
+    bool behind_sphere(const Ray &ray, uint32_t ignored_sphere) const;
+
+    static constexpr size_t kFewSpheres = 8;
 
     std::vector<Instance> instances_;
     std::vector<Sphere> spheres_;

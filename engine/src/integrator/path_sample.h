@@ -45,7 +45,7 @@ class PathSample {
         push(camera);
         uint64_t vertices = 0;
         while (!stack_.empty() && ++vertices < kVertexGuard && (vertices % kVerticesALook || !rays_.stopped())) {
-            const PathState next = stack_.back();
+            PathState next = stack_.back();
             stack_.pop_back();
             follow(next);
         }
@@ -56,16 +56,16 @@ class PathSample {
   private:
     // -- One segment
     // -----------------------------------------------------------------------------------------------------
-    void follow(PathState state);
+    void follow(PathState &state);
 
     // -- Light vertices
     // --------------------------------------------------------------------------------------------------
     /// Points in the fog of the segment that are joined to the pool; several where the camera sees it directly.
     void gather_along(const PathState &state, float end, const Homogeneous &fog);
     /// All light that reaches state.ray.origin scattered, as the fog scatters it there: from the pool, and by a short
-    /// ray for what the pool's bounded connections leave out. `scale`: the point is one of so many.
-    /// `splatted`: the share of what no vertex holds that splats bring here.
-    void gather(PathState &state, float scale, float splatted);
+    /// ray for what the pool's bounded connections leave out: false where that ends. `scale`: the point is one of so
+    /// many. `splatted`: the share of what no vertex holds that splats bring here.
+    bool gather(PathState &state, float scale, float splatted);
     /// The share 1 - w(d) of the vertex that a ray from a gather meets; beyond, what no vertex holds (held_share.h).
     void compensate(PathState &state, const Homogeneous &fog);
     /// The largest transmittance of a channel as far as absorption goes.

@@ -9,7 +9,7 @@
 
 namespace glimmer {
 
-void PathSample::follow(PathState state) {
+void PathSample::follow(PathState &state) {
     const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
     if (state.compensates())
         return compensate(state, *fog);

@@ -16,19 +16,21 @@ void PathSample::gather_along(const PathState &state, float end, const Homogeneo
         const Collision c = sample_collision(fog, state.beta, end, fog.grey ? 0 : sampler_.next_1d(), bits);
         if (!(c.pdf > 0))
             return;
-        PathState at = state;
+        push(state);
+        PathState &at = stack_.back();
         at.beta *= c.weight * (1 / float(n));
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
         at.first = state.direct_view() ? PathState::First::fog : state.first;
-        gather(at, float(n), state.depth == 0 ? splat_share(c.t, pool_->settings) : 0);
+        if (!gather(at, float(n), state.depth == 0 ? splat_share(c.t, pool_->settings) : 0))
+            stack_.pop_back();
     }
 }
 
-void PathSample::gather(PathState &state, float scale, float splatted) {
+bool PathSample::gather(PathState &state, float scale, float splatted) {
     const Vec3f x = state.ray.origin;
     state.exempt /= scale;
     if (!survives(state, x))
-        return;
+        return false;
     state.exempt *= scale;
     const Rgb value = state.beta * pool_->pool.gather(x, state.ray.direction, sampler_, rays_);
     (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
@@ -42,7 +44,7 @@ void PathSample::gather(PathState &state, float scale, float splatted) {
     ++state.scatter;
     state.chain = 0;
     ++state.order;
-    push(state);
+    return true;
 }
 
 void PathSample::compensate(PathState &state, const Homogeneous &fog) {
@@ -62,7 +64,8 @@ void PathSample::compensate(PathState &state, const Homogeneous &fog) {
             return;
         state.ray.origin = state.ray.origin + state.ray.direction * flight.t;
         sample_light_in_fog(state, state.ray.origin, fog, false);
-        gather(state, 1, 0);
+        if (gather(state, 1, 0))
+            push(state);
     } else if (hit) {
         const Interaction surface = scene_.interaction(state.ray, *hit);
         const bool within = hit->t <= surface_reach;

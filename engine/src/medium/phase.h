@@ -35,6 +35,8 @@ struct HenyeyGreenstein {
 
     /// Both 1 - cos and 1 + cos by inversion without cancellation: the textbook form divides by g and subtracts.
     PhaseSample sample(const Vec3f &before, Vec2f u) const {
+        if (g == 0)
+            return {sample_uniform_sphere(u), kIsotropicPhase};
         const float h = std::abs(g), narrow = 1 - h, wide = 1 + h;
         const float q = narrow + 2 * h * u.x;
         const float one_minus_cos = 2 * narrow * narrow * (1 - u.x) * (1 + h * u.x) / (q * q);

@@ -61,6 +61,8 @@ void SceneBuilder::list_left_out() {
         out.push_back("isotropic fog: no phase function");
     if (!scene_.has_glass)
         out.push_back("no glass: no search for the bodies around the camera");
+    if (scene_.accel->without_bvh())
+        out.push_back("a few spheres alone: no BVH");
     if (scene_.camera.lens_radius == 0)
         out.push_back("pinhole camera: no lens sampling");
     if (scene_.lights.lamps().empty())
