@@ -96,7 +96,7 @@ class Minimal {
             if (!(c.pdf > 0))
                 break;
             Fork fork{ray.origin + ray.direction * c.t, ray.direction, c.weight.r * (1 / float(kGathers)), 0, 0};
-            if (gather(fork, kGathers, splat_share(c.t, pool_.settings), sampler, rays, result.fog))
+            if (gather(fork, kGathers, c.t, sampler, rays, result.fog))
                 forks[count++] = fork;
         }
         while (count)
@@ -175,7 +175,7 @@ class Minimal {
     }
 
     /// Joins a point with the pool and turns the fork into the ray for what bounded connections leave out.
-    bool gather(Fork &fork, float scale, float splatted, Sampler &sampler, RayCounter &rays, Rgb &sum) const {
+    bool gather(Fork &fork, float scale, float t, Sampler &sampler, RayCounter &rays, Rgb &sum) const {
         if (!survives(fork.beta, 1 / scale, fork.x, sampler))
             return false;
         sum += Rgb(fork.beta) * pool_.pool.gather(fork.x, fork.direction, sampler, rays);
@@ -183,7 +183,7 @@ class Minimal {
         fork.fog_reach = k * pool_.settings.fog_bound;
         fork.surface_reach = k * pool_.settings.surface_bound;
         fork.direction = sample_uniform_sphere(sampler.next_2d());
-        if (splatted > 0)
+        if (t > 0) // the general kernel asks whether splats bring what no vertex holds
             sampler.next_1d();
         return true;
     }

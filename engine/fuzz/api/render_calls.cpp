@@ -12,10 +12,11 @@ void create_render(Input &in, Handles &handles, glimmer_scene *scene) {
     glimmer_render_init(&desc);
     constexpr std::array<const char *, 4> integrators{"path", "report", "", "none"};
     desc.integrator = in.PickValueInArray(integrators);
-    desc.samples = in.ConsumeIntegralInRange<uint64_t>(0, 5);
+    desc.samples = in.ConsumeIntegralInRange<uint64_t>(0, 20); // a plan of adaptive sampling is made at 16
     desc.seconds = in.ConsumeBool() ? 0.01 : in.number();
     desc.target_error = in.ConsumeBool() ? 0 : in.number();
     desc.seed = in.ConsumeIntegral<uint64_t>();
+    desc.adaptive = desc.seed & 1;
     desc.threads = in.ConsumeIntegralInRange<uint32_t>(1, 3);
     desc.tile_size = in.ConsumeBool() ? in.ConsumeIntegralInRange<uint32_t>(0, 64) : 65537;
     desc.max_depth = in.ConsumeIntegralInRange<int64_t>(-2, 4);

@@ -15,7 +15,8 @@ namespace glimmer {
 namespace {
 
 constexpr float kGuidedStart = 0.85f; // of the paths start by importance, the rest at any light
-constexpr uint32_t kBeams = 32;       // of what no vertex holds, at a surface
+constexpr uint32_t kBeams = 32;       // of what no vertex holds, at a surface; times the path's weight, up to so much:
+constexpr float kMostBeams = 64;      // a path straight from a moon far off in the haze may be worth thousands
 constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
 
 /// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way
@@ -101,10 +102,7 @@ class LightPath {
         if (weight == 0)
             return;
         const Vec3f before = path.ray.direction;
-        if (scene_.medium->g == 0)
-            out_.fog.add(x, path.power);
-        else
-            out_.fog.add(x, path.power, before);
+        out_.fog.add(x, path.power, before);
         split(path, weight, [&](Branch &next) {
             next.sharp = false;
             next.chain = 0;
@@ -137,13 +135,15 @@ class LightPath {
             return;
         if (!is_specular(bsdf))
             out_.surface.push_back(v);
-        if (scene_.medium && path.glass.empty() && !is_held(peak(bsdf)))
-            for (uint32_t k = 0; k < kBeams; ++k) {
+        if (scene_.medium && path.glass.empty() && !is_held(peak(bsdf))) {
+            const auto beams = uint32_t(float(kBeams) * std::min(weight, kMostBeams));
+            for (uint32_t k = 0; k < beams; ++k) {
                 Branch beam = path;
-                beam.power *= 1.0f / kBeams;
+                beam.power *= 1 / float(beams);
                 if (reflect(beam, v, surface, bsdf))
                     shine(beam);
             }
+        }
         split(path, weight, [&](Branch next) {
             if (reflect(next, v, surface, bsdf))
                 branches_.push_back(next);
@@ -302,6 +302,7 @@ LightVertices trace_light_paths(const Scene &scene, const CameraImportance &impo
             ++finite;
         }
     LightVertices out;
+    out.fog.directed = scene.medium && scene.medium->g != 0;
     if (!finite)
         return out;
     for (uint32_t i = 0; i < lights.size(); ++i)

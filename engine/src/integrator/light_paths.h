@@ -13,19 +13,21 @@
 
 namespace glimmer {
 
-/// Power scattered by the fog at points, as a structure of arrays. Fog that scatters evenly has no use for where it
-/// came from.
+/// Power scattered by the fog at points, as a structure of arrays.
 struct FogVertices {
+    bool directed = false; ///< whether directions are kept: fog that scatters evenly has no use for them
     std::vector<float> x, y, z, r, g, b;
-    std::vector<float> dx, dy, dz; ///< unit, of flight; empty where the fog scatters evenly
+    std::vector<float> dx, dy, dz; ///< unit, of flight; empty unless directed
     size_t size() const { return x.size(); }
-    void add(const Vec3f &position, const Rgb &power) {
+    void add(const Vec3f &position, const Rgb &power, const Vec3f &direction) {
         x.push_back(position.x), y.push_back(position.y), z.push_back(position.z);
         r.push_back(power.r), g.push_back(power.g), b.push_back(power.b);
+        if (directed)
+            dx.push_back(direction.x), dy.push_back(direction.y), dz.push_back(direction.z);
     }
-    void add(const Vec3f &position, const Rgb &power, const Vec3f &direction) {
-        add(position, power);
-        dx.push_back(direction.x), dy.push_back(direction.y), dz.push_back(direction.z);
+    /// Vertex i of others that are directed alike, its power scaled.
+    void add(const FogVertices &others, size_t i, float scale) {
+        add(others.position(i), others.power(i) * scale, directed ? others.direction(i) : Vec3f());
     }
     Vec3f direction(size_t i) const { return {dx[i], dy[i], dz[i]}; }
     Vec3f position(size_t i) const { return {x[i], y[i], z[i]}; }

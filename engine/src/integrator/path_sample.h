@@ -64,8 +64,8 @@ class PathSample {
     void gather_along(const PathState &state, float end, const Homogeneous &fog);
     /// All light that reaches state.ray.origin scattered, as the fog scatters it there: from the pool, and by a short
     /// ray for what the pool's bounded connections leave out: false where that ends. `scale`: the point is one of so
-    /// many. `splatted`: the share of what no vertex holds that splats bring here.
-    bool gather(PathState &state, float scale, float splatted);
+    /// many. `t`: from where the camera's ray starts, 0 off it, where no splats are.
+    bool gather(PathState &state, float scale, float t);
     /// The share 1 - w(d) of the vertex that a ray from a gather meets; beyond, what no vertex holds (held_share.h).
     void compensate(PathState &state, const Homogeneous &fog);
     /// The largest transmittance of a channel as far as absorption goes.

@@ -21,12 +21,12 @@ void PathSample::gather_along(const PathState &state, float end, const Homogeneo
         at.beta *= c.weight * (1 / float(n));
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
         at.first = state.direct_view() ? PathState::First::fog : state.first;
-        if (!gather(at, float(n), state.depth == 0 ? splat_share(c.t, pool_->settings) : 0))
+        if (!gather(at, float(n), state.depth == 0 ? c.t : 0))
             stack_.pop_back();
     }
 }
 
-bool PathSample::gather(PathState &state, float scale, float splatted) {
+bool PathSample::gather(PathState &state, float scale, float t) {
     const Vec3f x = state.ray.origin;
     state.exempt /= scale;
     if (!survives(state, x))
@@ -37,7 +37,9 @@ bool PathSample::gather(PathState &state, float scale, float splatted) {
     const float u = sampler_.next_1d(), k = std::sqrt((1 - u) / std::max(u, 1e-12f)); // P(k d0 > d) = 1 - w(d)
     state.fog_reach = k * pool_->settings.fog_bound;
     state.surface_reach = k * pool_->settings.surface_bound;
-    state.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(state.ray.direction, sampler_.next_2d()).direction};
+    const Vec3f seen = state.ray.direction;
+    state.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(seen, sampler_.next_2d()).direction};
+    const float splatted = t > 0 ? splat_share(t, seen, state.ray.direction, pool_->settings) : 0;
     state.splatted = splatted > 0 && sampler_.next_1d() < splatted;
     state.origin = {};
     ++state.depth;

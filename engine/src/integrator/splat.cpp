@@ -70,9 +70,10 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, con
         return;
     const float pixel_angle =
         seen->solid_angle / (float(film.width) * float(film.height)); // at this place, if the filter were a point
-    const Rgb radiance = power * scene.medium->transmittance(seen->t) *
-                         (HenyeyGreenstein{scene.medium->g}.eval(seen->direction, -direction) *
-                          splat_share(seen->t, settings) / (seen->distance * seen->distance * pixel_angle));
+    const Rgb radiance =
+        power * scene.medium->transmittance(seen->t) *
+        (HenyeyGreenstein{scene.medium->g}.eval(seen->direction, -direction) *
+         splat_share(seen->t, seen->direction, direction, settings) / (seen->distance * seen->distance * pixel_angle));
     if (is_black(radiance))
         return;
     bool visible = false;

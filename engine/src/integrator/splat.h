@@ -16,11 +16,12 @@ struct Splat {
     Rgb radiance;
 };
 
-/// The share of what arrives at a fog point from an unheld surface that splats bring, when the camera sees the point
-/// directly, t from where its ray starts; rays from the gathers bring the rest. Near the camera a splat would be
-/// without bound.
-inline float splat_share(float t, const PoolSettings &settings) {
-    return connected_share(t, settings.splat_bound);
+/// The share of what arrives at a fog point along `light` from an unheld surface that splats bring, when the camera
+/// sees the point directly, along `seen`, t from where its ray starts; rays from the gathers bring the rest. A beam
+/// that passes the camera at the distance h is bright as 1/h wherever it is seen: no bound on t alone would bound its
+/// splats.
+inline float splat_share(float t, const Vec3f &seen, const Vec3f &light, const PoolSettings &settings) {
+    return connected_share(t * length(cross(seen, light)), settings.splat_bound);
 }
 
 /// A segment of a light path through the fog that began at an unheld surface.

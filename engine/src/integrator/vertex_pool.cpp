@@ -77,7 +77,8 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
     std::vector<float> targets(n + 8), powers(n);
     const Float8 sigma(-mean_extinction(*scene_.medium)),
         soften(kSoften * kSoften * settings_.fog_bound * settings_.fog_bound);
-    const bool even = scene_.medium->g == 0;
+    const bool even = !vertices.directed;
+    fog_.directed = vertices.directed;
     const Phase8 phase(scene_.medium->g);
     size_t j = 0;
     for (; j + 8 <= n; j += 8) {
@@ -113,11 +114,7 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
     });
     for (uint32_t s = 0; s < settings_.sub_pools; ++s)
         for (uint32_t k = s; k < count; k += settings_.sub_pools)
-            if (even)
-                fog_.add(vertices.position(chosen[k]), vertices.power(chosen[k]) * scale[k]);
-            else
-                fog_.add(vertices.position(chosen[k]), vertices.power(chosen[k]) * scale[k],
-                         vertices.direction(chosen[k]));
+            fog_.add(vertices, chosen[k], scale[k]);
 }
 
 void VertexPool::pick_surface(const std::vector<SurfaceVertex> &vertices, const std::vector<Vec3f> &points,
@@ -158,7 +155,7 @@ void VertexPool::pick_surface(const std::vector<SurfaceVertex> &vertices, const 
 Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayCounter &rays) const {
     const Homogeneous &medium = *scene_.medium;
     const HenyeyGreenstein phase{medium.g};
-    const bool even = medium.g == 0;
+    const bool even = !fog_.directed;
     const uint32_t sub_pool =
         std::min(uint32_t(sampler.next_1d() * float(settings_.sub_pools)), settings_.sub_pools - 1);
     alignas(32) std::array<float, kMostPicks> fog_parts;
