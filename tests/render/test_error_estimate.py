@@ -122,7 +122,6 @@ def true_errors(claims: list[Claim], truth: float | None) -> Array:
 
 
 BEYOND = {
-    ("path", "rough metal in fog"): "of 237 certified renders 35 have made errors above their interval, by up to 1.4",
     ("report", "smooth metal"): "3 of 400 are certified, and have made errors 1.1 to 1.2 times the interval's end",
 }
 """What so many renders show to be untrue: an error that is made is not the expected one, and has tails of its own."""
