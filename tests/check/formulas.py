@@ -67,6 +67,43 @@ def fresnel_exact(cos_i: float, ior: float) -> float:
         return float((s * s + p * p) / 2)
 
 
+def fresnel_at_shell(b: float, radius: float, before: float, beyond: float) -> float:
+    """Reflectance of a sphere between two indices for light of the invariant b = n r sin(angle) (Bouguer)."""
+    i, t = (np.sqrt(1 - (b / (n * radius)) ** 2) for n in (before, beyond))
+    s = (before * i - beyond * t) / (before * i + beyond * t)
+    p = (beyond * i - before * t) / (beyond * i + before * t)
+    return float((s * s + p * p) / 2)
+
+
+def radiance_in_nested_balls(outer: float, inner: float, samples: int, seed: int = 1) -> tuple[float, float]:
+    """In the middle of a ball of radius 1 and index `inner` within one of radius 3 and index `outer`, under a sky of 1,
+    and its standard error: photons are followed from outside, which know flux alone and nothing of n^2. Fluence is the
+    length of their ways through a small ball over its volume."""
+    rng = np.random.default_rng(seed)
+    widest = outer  # what comes in with a larger b never reaches the inner ball
+    small = 0.7 * outer / inner  # light comes from everywhere there
+    power = PI * 4 * PI * 3**2 * (widest / 3) ** 2  # b^2 is uniform
+    lengths = np.zeros(samples)
+    for k in range(samples):
+        b = widest * np.sqrt((k + rng.random()) / samples)
+        at_outer, at_inner = fresnel_at_shell(b, 3, 1, outer), fresnel_at_shell(b, 1, outer, inner)
+        chord = 2 * np.sqrt(max(small**2 - (b / inner) ** 2, 0.0))
+        if rng.random() < at_outer:
+            continue
+        within = False  # on the way from the outer surface to the inner
+        while True:
+            if within:
+                lengths[k] += chord
+                within = rng.random() < at_inner
+            elif rng.random() >= at_inner:
+                within = True
+                continue
+            if not within and rng.random() >= at_outer:  # back at the outer surface, and out
+                break
+    values = lengths * power / (4 / 3 * PI * small**3) / (4 * PI)
+    return float(values.mean()), float(values.std() / np.sqrt(samples))
+
+
 def ggx_albedo_walk(mu: float, alpha: float, samples: int, seed: int = 1) -> tuple[float, float]:
     """Directional albedo of GGX at F = 1 and its standard error, by visible normals (Heitz 2018) in float64 and the
     masking of what leaves, height-correlated."""

@@ -72,6 +72,13 @@ def test_fresnel_and_slab(degrees: float) -> None:
     assert formulas.slab_transmission(r) == pytest.approx(formulas.slab_transmission_series(r), rel=1e-12)
 
 
+def test_nested_glass() -> None:
+    """n^2 of the innermost ball, whatever is around it: by photons."""
+    mean, error = formulas.radiance_in_nested_balls(1.5, 2.4, 20_000)
+    assert error < 0.01 * mean
+    assert abs(mean - 2.4**2) < SIGMAS * error
+
+
 @pytest.mark.parametrize("alpha", [1e-4, 1e-3, 1e-2, 0.1, 0.5, 1])
 @pytest.mark.parametrize("mu", [1, 0.5, 0.1, 0.01, 0.001])
 def test_metal(alpha: float, mu: float) -> None:
