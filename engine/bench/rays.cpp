@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rays against 20 000 instanced plates: Embree alone, Accel, and Accel with the surface that the integrators want of a
 // hit. The same rays for all: half from a camera, half scattered from random places between the plates.
+#include "empty_scene.h"
 #include "geometry/accel.h"
 #include "inputs.h"
 #include "scene/scene.h"
@@ -39,7 +40,7 @@ std::shared_ptr<Mesh> plate() {
 
 /// Tilted plates, side by side at different heights.
 SceneDescription field() {
-    SceneDescription scene;
+    SceneDescription scene = empty_scene();
     MaterialDescription material;
     glimmer_material_init(&material);
     scene.materials.push_back(material);
@@ -56,12 +57,6 @@ SceneDescription field() {
             object.instances.push_back(affine_from_rows(rows));
         }
     scene.objects.push_back(object);
-    glimmer_camera_desc camera;
-    glimmer_camera_init(&camera);
-    scene.camera = camera;
-    glimmer_film_desc film;
-    glimmer_film_init(&film);
-    scene.film = film;
     return scene;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film/error.h"
 #include "film/student.h"
-#include "probe.h"
+#include "film_probe.h"
 #include "render/rate.h"
 
 using namespace glimmer;
@@ -11,19 +11,7 @@ using namespace glimmer;
 PROBE void probe_error(const float *sums, uint32_t width, uint32_t height, uint64_t samples, uint32_t look,
                        double *result) {
     Film film(width, height, 32, 0);
-    for (size_t t = 0; t < film.tiles().size(); ++t) {
-        const Rectangle area = film.tiles()[t];
-        Film::Tile tile(film, t);
-        for (uint32_t y = 0; y < area.height; ++y)
-            for (uint32_t x = 0; x < area.width; ++x)
-                for (uint32_t r = 0; r < kReplicates; ++r) {
-                    const float *s = sums + ((size_t(area.y + y) * width + area.x + x) * kReplicates + r) * 3;
-                    FilmSample sample;
-                    sample.emission = probe::load_rgb(s);
-                    tile.add(x, y, r, sample);
-                }
-        tile.commit(samples);
-    }
+    probe::load_replicates(film, sums, samples);
     const std::optional<ErrorEstimate> e = estimate_error(film, look, std::atomic<bool>(false));
     const double values[] = {e->relmse, e->low, e->high, e->largest_share, double(e->x), double(e->y), e->log_error};
     result = std::copy(std::begin(values), std::end(values), result);

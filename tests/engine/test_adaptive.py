@@ -2,7 +2,6 @@
 """Adaptive sampling: whom a plan may ask, what it may ask for, and the same bits whatever the threads, the tiles and
 the interruptions. See tests/render/test_adaptive for what becomes of the picture."""
 
-import time
 from functools import cache
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 
 from addon.native import structs
-from addon.native.structs import State
+from tests.engine.bits import assert_same_bits, broken_off_within_batches, pictures
 from tests.engine.library import Image, Render, Scene, functions, last_error, pass_table
 from tests.engine.probe import sample_plan
 from tests.engine.worlds import everything
@@ -81,10 +80,6 @@ def scene() -> Scene:
 SETTINGS: dict[str, Any] = {"seed": 5, "threads": 2, "adaptive": 1, "tile_size": 64}
 
 
-def pictures(render: Render) -> dict[str, Image]:
-    return {name: render.read(name) for name in pass_table()}
-
-
 def rendered(**settings: Any) -> dict[str, Image]:
     with Render(scene(), passes=tuple(pass_table()), **{**SETTINGS, "samples": SAMPLES, **settings}) as render:
         return pictures(render.run())
@@ -93,11 +88,6 @@ def rendered(**settings: Any) -> dict[str, Image]:
 @cache
 def reference() -> dict[str, Image]:
     return rendered(threads=1)
-
-
-def assert_same_bits(found: dict[str, Image]) -> None:
-    for name, image in reference().items():
-        assert (found[name].view(np.uint32) == image.view(np.uint32)).all(), name
 
 
 def test_counts() -> None:
@@ -119,14 +109,13 @@ def test_counts() -> None:
 
 def test_until_the_plan_it_is_any_other_render() -> None:
     plain, adaptive = rendered(samples=PLANNED_AT, adaptive=0), rendered(samples=PLANNED_AT)
-    for name, image in plain.items():
-        assert (image.view(np.uint32) == adaptive[name].view(np.uint32)).all(), name
+    assert_same_bits(plain, adaptive)
     assert (rendered(adaptive=0)["combined"] != reference()["combined"]).mean() > 0.9
 
 
 @pytest.mark.parametrize("settings", [{"threads": 3, "tile_size": 32}, {"threads": 2, "tile_size": 1000}])
 def test_threads_and_tiles(settings: dict[str, int]) -> None:
-    assert_same_bits(rendered(**settings))
+    assert_same_bits(reference(), rendered(**settings))
 
 
 @pytest.mark.parametrize("at", [9, PLANNED_AT, 21])
@@ -136,34 +125,18 @@ def test_resume(at: int) -> None:
         state = render.run().save()
     with Render(scene(), samples=SAMPLES, passes=tuple(pass_table()), **SETTINGS) as render:
         render.load(state)
-        assert_same_bits(pictures(render.run()))
+        assert_same_bits(reference(), pictures(render.run()))
 
 
 def test_resume_from_the_middle_of_a_batch() -> None:
-    """Paused with some tiles ahead of others, after the plan, saved, destroyed, and taken up elsewhere; that several
-    times over."""
     settings: dict[str, Any] = {**SETTINGS, "tile_size": 8, "passes": tuple(pass_table())}
     with Render(scene(), samples=PLANNED_AT + 1, **settings) as render:
-        state, uneven = render.run().save(), 0
-    for _ in range(40):
-        with Render(scene(), samples=SAMPLES, **settings) as render:
-            render.load(state)
-            samples = {(tile.x, tile.y): tile.samples for tile in render.tiles()}
-            render.start()
-            while (tile := render.next_tile()) is None and render.state == State.RUNNING:
-                time.sleep(1e-4)
-            render.pause()
-            for after in (tile, *render.tiles()):
-                if after is not None:
-                    samples[after.x, after.y] = after.samples
-            if render.state != State.PAUSED:
-                break
-            uneven += len(set(samples.values())) > 1
-            state = render.save()
-    assert uneven > 0, "never paused within a batch: nothing was tested"
-    with Render(scene(), samples=SAMPLES, **settings) as render:
+        planned = render.run().save()
+    settings["samples"] = SAMPLES
+    state = broken_off_within_batches(scene(), settings, planned)
+    with Render(scene(), **settings) as render:
         render.load(state)
-        assert_same_bits(pictures(render.run()))
+        assert_same_bits(reference(), pictures(render.run()))
 
 
 def test_a_state_of_the_other_kind_is_refused() -> None:

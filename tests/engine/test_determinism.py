@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The same bits whatever the threads, the tiles and the interruptions."""
 
-import time
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -9,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from addon.native.structs import State
+from tests.engine.bits import assert_same_bits, broken_off_within_batches, pictures
 from tests.engine.library import Image, Render, Scene, pass_table
 from tests.engine.worlds import everything
 
@@ -27,10 +26,6 @@ def passes() -> tuple[str, ...]:
     return tuple(pass_table())
 
 
-def pictures(render: Render) -> dict[str, Image]:
-    return {name: render.read(name) for name in passes()}
-
-
 def rendered(which: Scene, **settings: Any) -> dict[str, Image]:
     settings = {"samples": SAMPLES, "seed": 5, "threads": 2, "passes": passes(), **settings}
     with Render(which, **settings) as render:
@@ -40,12 +35,6 @@ def rendered(which: Scene, **settings: Any) -> dict[str, Image]:
 @cache
 def reference(integrator: str, fog: bool = True) -> dict[str, Image]:
     return rendered(scene(fog), integrator=integrator, threads=1, tile_size=64)
-
-
-def assert_same_bits(a: dict[str, Image], b: dict[str, Image]) -> None:
-    for name in a:
-        same = a[name].view(np.uint32) == b[name].view(np.uint32)
-        assert same.all(), f"{name}: {(~same).sum()} of {same.size} values differ, first at {np.argwhere(~same)[0]}"
 
 
 def test_the_reference_is_no_blank_picture() -> None:
@@ -113,7 +102,6 @@ def test_resume_after_some_samples(integrator: str, at: int) -> None:
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_resume_from_the_middle_of_a_batch(integrator: str) -> None:
-    """Paused with some tiles ahead of others, saved, destroyed, and taken up elsewhere; that several times over."""
     settings: dict[str, Any] = {
         "integrator": integrator,
         "seed": 5,
@@ -122,24 +110,10 @@ def test_resume_from_the_middle_of_a_batch(integrator: str) -> None:
         "tile_size": 8,
         "threads": 2,
     }
-    whole = reference(integrator)
-    state, uneven = b"", 0
-    for _ in range(40):
-        with Render(scene(), **settings) as render:
-            if state:
-                render.load(state)
-            render.start()
-            while render.next_tile() is None and render.state == State.RUNNING:
-                time.sleep(1e-4)
-            render.pause()
-            if render.state != State.PAUSED:
-                break
-            uneven += int(np.unique(render.read("sample_count")).size > 1)
-            state = render.save()
-    assert uneven > 0, "never paused within a batch: nothing was tested"
+    state = broken_off_within_batches(scene(), settings)
     with Render(scene(), **settings) as render:
         render.load(state)
-        assert_same_bits(whole, pictures(render.run()))
+        assert_same_bits(reference(integrator), pictures(render.run()))
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)

@@ -12,10 +12,6 @@ namespace {
 
 constexpr uint32_t kReach = 2; // pixels that speak for their neighbours: 5 x 5 know the variance where one pixel cannot
 
-struct Size {
-    size_t width, height;
-};
-
 /// What the planners of one replicate say of one pixel: variance of a replicate over mu^2 + eps, summed over channels.
 double score(const Replicates &sums, uint32_t planned, double epsilon) {
     constexpr double passes = double(kPlanPasses) / kReplicates;
@@ -41,7 +37,7 @@ double mean_of_planners(const Film &film, uint32_t planned) {
     double sum = 0;
     for (uint32_t y = 0; y < film.height(); ++y)
         for (uint32_t x = 0; x < film.width(); ++x) {
-            const Replicates &sums = film.replicates(x, y);
+            const Replicates sums = film.replicates(x, y);
             for (uint32_t d = 0; d < kPlanners; ++d) {
                 const Rgb &s = sums[(planned + 1 + d) % kReplicates];
                 sum += double(s.r) + double(s.g) + double(s.b);

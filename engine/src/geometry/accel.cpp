@@ -13,7 +13,6 @@ namespace {
 // Embree's own limit of a coordinate. Debian's build asserts it for every ray, also in an instance's space, and a
 // failed assertion ends the whole process, Blender with it.
 constexpr float kMostCoordinate = 1.844e18f;
-constexpr float kNearest = std::numeric_limits<float>::min(); // not 0: a camera on a surface is not within it
 constexpr double kLeastVolume = 0x1p-20; // of the rows' lengths' product; below, Embree's float32 inverse is noise
 
 struct Context {
@@ -39,17 +38,6 @@ void sphere_bounds(const RTCBoundsFunctionArguments *args) {
     b.upper_z = round_up(s.center.z + s.radius);
 }
 
-/// The first root within the ray's range, as a float that stays inside it.
-std::optional<float> first_root(const Sphere &sphere, const Vec3d &origin, const Vec3d &direction, double t_max) {
-    const auto roots = intersect_sphere(sphere, origin, direction);
-    if (!roots)
-        return std::nullopt;
-    if (roots->near > double(kNearest) && roots->near <= t_max)
-        return float(roots->near);
-    if (roots->far > double(kNearest) && roots->far <= t_max)
-        return float(roots->far);
-    return std::nullopt;
-}
 std::optional<float> first_root(const Sphere &sphere, const RTCRay &ray) {
     return first_root(sphere, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, double(ray.tfar));
 }
@@ -82,7 +70,7 @@ RTCRay embree_ray(const Ray &ray) {
     RTCRay r{};
     r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
     r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-    r.tnear = kNearest;
+    r.tnear = kNearestHit;
     r.tfar = ray.t_max;
     r.mask = ~0u;
     return r;

@@ -4,6 +4,7 @@
 
 #include "math/vec.h"
 
+#include <limits>
 #include <optional>
 
 namespace glimmer {
@@ -35,6 +36,22 @@ inline std::optional<SphereRoots> intersect_sphere(const Sphere &sphere, const V
         return SphereRoots{0, 0};
     const double t0 = c / q, t1 = q / a;
     return t0 < t1 ? SphereRoots{t0, t1} : SphereRoots{t1, t0};
+}
+
+/// Where rays begin to meet anything. Not 0: a camera on a surface is not within it.
+inline constexpr float kNearestHit = std::numeric_limits<float>::min();
+
+/// The first root between kNearestHit and t_max.
+inline std::optional<float> first_root(const Sphere &sphere, const Vec3d &origin, const Vec3d &direction,
+                                       double t_max) {
+    const auto roots = intersect_sphere(sphere, origin, direction);
+    if (!roots)
+        return std::nullopt;
+    if (roots->near > double(kNearestHit) && roots->near <= t_max)
+        return float(roots->near);
+    if (roots->far > double(kNearestHit) && roots->far <= t_max)
+        return float(roots->far);
+    return std::nullopt;
 }
 
 } // namespace glimmer

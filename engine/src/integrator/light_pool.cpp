@@ -16,8 +16,8 @@ constexpr uint32_t kBlockPoints = 12;      // seen points that stand for a block
 constexpr uint32_t kPixelsPerPath = 6;     // light paths cost about a tenth of the camera's work then
 constexpr uint32_t kMostPaths = 24576; // every block looks at all their vertices: beyond, that is what takes the time
 constexpr uint32_t kMostVertices = 1u << 18; // of a pass, about: for the same reason, and for memory
-constexpr float kSplatBound =
-    0.03f; // of the median distance of what is seen: nearer the camera, beams are few and bright
+// Of the median distance of what is seen: nearer the camera, beams are few and bright.
+constexpr float kSplatBound = 0.03f;
 constexpr float kDense = 50, kDiffuse = 5; // radii of the scene in mean free paths, and in lengths of diffusion
 constexpr float kMostForward = 0.9f, kMostBackward = -0.6f; // beyond, peaks that meet outweigh what vertices save
 constexpr uint64_t kPassStream = 0x9a55, kBlockStream = 0xb10c,
