@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from math import nan
 from types import TracebackType
 from typing import Any
-from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from ..scene.description import RenderSettings, SceneDescription
 from ..scene.problems import GlimmerError
 from . import structs
 from .library import Library, load
+from .open_set import OpenSet
 from .scene import MeshCache, NativeScene
 from .structs import State
 
@@ -62,7 +62,7 @@ class NativeRender:
         settings = scene.description.settings
         desc = self._describe(settings)
         library.call("glimmer_render_create", scene.handle, byref(desc), byref(self._handle))
-        _open_renders.add(self)
+        open_renders.add(self)
 
     def _describe(self, settings: RenderSettings) -> Any:
         desc = self._library.init(structs.RenderDesc)
@@ -96,7 +96,7 @@ class NativeRender:
             self._library.free("glimmer_render_destroy", self._handle)
             self._handle = c_void_p()
         self._scene.close()
-        _open_renders.discard(self)
+        open_renders.discard(self)
 
     @property
     def material_numbers(self) -> list[int]:
@@ -172,7 +172,7 @@ class NativeRender:
         return report
 
 
-_open_renders: WeakSet[NativeRender] = WeakSet()
+open_renders: OpenSet[NativeRender] = OpenSet()
 _meshes: dict[int, MeshCache] = {}
 
 
@@ -196,7 +196,7 @@ def open_render(scene: SceneDescription, meshes: MeshCache | None = None) -> tup
 
 def close_all() -> None:
     """Cancels and frees whatever is still open: for when the add-on is switched off or the process ends."""
-    for render in list(_open_renders):
+    for render in open_renders.all():
         render.close()
     for meshes in _meshes.values():
         meshes.clear()

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import threading
 from dataclasses import dataclass, replace
-from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..native.library import load
+from ..native.open_set import OpenSet
 from ..native.render import NativeRender, Progress, Tile, open_render
 from ..native.scene import MeshCache
 from ..scene.description import SceneDescription
@@ -243,10 +243,10 @@ class Session:
             old.render.close()
 
 
-_open_sessions: WeakSet[Session] = WeakSet()
+_open_sessions: OpenSet[Session] = OpenSet()
 
 
 def close_all() -> None:
     """For when the add-on is switched off, another file is loaded or the process ends."""
-    for session in list(_open_sessions):
+    for session in _open_sessions.all():
         session.close(wait=True)

@@ -98,12 +98,12 @@ def is_rendering() -> bool:
 def stop() -> str:
     if choice.random() < 0.5:
         try:
-            renders = [item for item in list(native._open_renders) if item not in _views_renders()]
+            renders = [item for item in native.open_renders.all() if item not in _views_renders()]
             if renders:
                 facts["film_bytes"] = max(facts["film_bytes"], renders[0].poll().peak_bytes)
                 renders[0].cancel()
                 return "cancel"
-        except (GlimmerError, RuntimeError):  # Blender's thread has opened or closed one meanwhile
+        except GlimmerError:  # Blender's thread has closed it meanwhile
             return "too late"
     subprocess.run(["xdotool", "key", "Escape"], check=True, timeout=20)
     return "escape"
@@ -141,7 +141,7 @@ def rounds() -> Iterator[Callable[[], bool]]:
                 "stops": stops,
                 "then": disturbance.__name__,
                 # A view may be about to begin one.
-                "renders": None if redraw.open_views() else len(native._open_renders),
+                "renders": None if redraw.open_views() else len(native.open_renders.all()),
                 "tasks": len(list(Path("/proc/self/task").iterdir())),
                 "bytes": int(Path("/proc/self/statm").read_text().split()[1]) * PAGE,
             }
@@ -150,7 +150,7 @@ def rounds() -> Iterator[Callable[[], bool]]:
     hide_view()
     yield lambda: not redraw.open_views() and all(item.name != "Glimmer view" for item in threading.enumerate())
     facts["tasks_at_the_end"] = len(list(Path("/proc/self/task").iterdir()))
-    facts["renders_at_the_end"] = len(native._open_renders)
+    facts["renders_at_the_end"] = len(native.open_renders.all())
 
 
 script = rounds()
@@ -161,7 +161,7 @@ deadline = [time.monotonic() + COUNT * MOST_SECONDS_A_RENDER]
 def finish() -> float | None:
     """Quits, which Blender refuses while it renders: then stops that, and wants to be asked again."""
     (OUT / "facts.json").write_text(json.dumps(facts))
-    for item in list(native._open_renders):
+    for item in native.open_renders.all():
         item.cancel()
     try:
         bpy.ops.wm.quit_blender()
