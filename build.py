@@ -380,6 +380,15 @@ def bench(blender: str | None, given: BenchOptions) -> None:
     run([*command, "--said", shlex.join(said)], env=host_environment(BUILD / "profile", executable))
 
 
+def claims(blender: str | None, seeds: int) -> None:
+    executable = setup(blender, ("build", "render", "test"))
+    if executable is None:
+        raise BuildError("the scenes are exported by a Blender; there is none")
+    build()
+    command: list[str | Path] = [virtual_environment("bench"), "-m", "tests.bench.claims", "--seeds", str(seeds)]
+    run([*command, "--glimmer", COMMAND, "--blender", executable], env=host_environment(BUILD / "profile", executable))
+
+
 @dataclass(frozen=True)
 class CheckOptions:
     quick: bool
@@ -504,6 +513,13 @@ def arguments() -> argparse.ArgumentParser:
         "-o", "--output", type=Path, metavar="FOLDER", help="for the page and its plot (default: build/bench)"
     )
     item = command(
+        "claims",
+        "Render three scenes many times; print what renders say of their error beside the error that they made. "
+        "Finished ones are kept under build/bench/claims.",
+        blender=True,
+    )
+    item.add_argument("--seeds", type=int, default=64, metavar="N", help="so many renders of each (default: 64)")
+    item = command(
         "check", "Render stiff and extreme scenes whose pictures are known by a formula; print a table.", True
     )
     item.add_argument("--quick", action="store_true", help="the short tier, which the tests run too")
@@ -546,6 +562,8 @@ def main(argv: Sequence[str]) -> int:
             )
         elif given.command == "test":
             test(given.blender, given.full, given.extra)
+        elif given.command == "claims":
+            claims(given.blender, given.seeds)
         elif given.command == "bench":
             output = given.output.absolute() if given.output else None
             unknown = sorted(set(given.peers) - set(PEERS))

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What renders say of their error against the error that they made: the figures of engine/cli/SCENE_FORMAT.md.
 
-    python -m tests.bench.claims --glimmer build/bin/glimmer --blender BLENDER
-
-in the environment that `build.py bench` gives (an add-on to export with). Many short renders of a scene, each against
-the mean of all others; finished ones are kept, as the benchmark's are.
+`python3 build.py claims` runs this. Many short renders of a scene, each against the mean of all others; finished ones
+are kept, as the benchmark's are.
 """
 
 import argparse
@@ -83,11 +81,13 @@ def pixels(last: Sequence[Claim]) -> tuple[float, float, float]:
 
 
 def main(argv: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(prog="python -m tests.bench.claims", description=__doc__)
+    parser = argparse.ArgumentParser(prog="build.py claims", description=__doc__)
     parser.add_argument("--glimmer", type=Path, required=True)
     parser.add_argument("--blender", type=Path, required=True)
     parser.add_argument("--seeds", type=int, default=64)
     given = parser.parse_args(argv)
+    if given.seeds < 2:
+        parser.error(f"--seeds {given.seeds}: at least 2, since each render is compared with the mean of the others")
     sys.stdout.write("| scene, integrator | error made | relmse | interval | certified | held | held, certified |\n")
     for scene in (scene for scene in SCENES if scene.name in NAMES):
         stage = set_stage(given.blender, scene, SIZE, ROOT / "build" / "bench" / "claims" / scene.name)

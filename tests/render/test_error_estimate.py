@@ -81,7 +81,7 @@ def metal(alpha: float, fog: bool) -> d.SceneDescription:
 class World:
     scene: Callable[[], d.SceneDescription]
     truth: float | None  # of every pixel; None: the mean of the other renders
-    tails: str  # "light": every render is certified; "mixed": some are; "heavy": none is
+    tails: str  # "light": every render is certified; "mixed": some are; "heavy": none should be
 
 
 WORLDS = {
@@ -121,21 +121,14 @@ def true_errors(claims: list[Claim], truth: float | None) -> Array:
     return errors
 
 
-BEYOND = {
-    ("report", "smooth metal"): "3 of 400 are certified, and have made errors 1.1 to 1.2 times the interval's end",
-}
-"""What so many renders show to be untrue: an error that is made is not the expected one, and has tails of its own."""
-
-
 @pytest.mark.parametrize("runs", [60, pytest.param(400, marks=[pytest.mark.full, pytest.mark.timeout(1800)])])
 @pytest.mark.parametrize("name", WORLDS)
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_the_interval_holds_the_error(integrator: str, name: str, runs: int, request: pytest.FixtureRequest) -> None:
+def test_the_interval_holds_the_error(integrator: str, name: str, runs: int) -> None:
     """Of all renders, and of those that are certified, 95 % hold in their interval, within the binomial error of so
     many renders: where tails are light the expected error, which is what the interval promises, and it is narrow enough
-    to mean something; elsewhere the error that the render has made."""
-    if runs == 400 and (integrator, name) in BEYOND:
-        request.applymarker(pytest.mark.xfail(reason=BEYOND[integrator, name], raises=AssertionError))
+    to mean something; elsewhere the error that the render has made. Where tails are heavy, those that are certified
+    have met no bright sample and cannot know of any: they are at most 5 %."""
     world = WORLDS[name]
     scene = Scene(world.scene())
     claims = list(pool.map(lambda seed: claim(scene, integrator, 5000 + seed, samples=64), range(runs)))
@@ -145,9 +138,9 @@ def test_the_interval_holds_the_error(integrator: str, name: str, runs: int, req
         errors = np.full(runs, errors.mean())
     held = np.array([c.low <= error <= c.high for c, error in zip(claims, errors, strict=True)])
     certified = np.array([c.certified for c in claims])
-    for which in (held, held[certified]):
+    for which in (held, held[certified]) if world.tails != "heavy" else (held, ~certified):
         assert stats.binom.cdf(which.sum(), len(which), CONFIDENCE) > LEVEL, f"{which.sum()} of {len(which)}"
-    assert certified.all() if world.tails == "light" else certified.any() == (world.tails == "mixed"), certified.sum()
+    assert world.tails == "heavy" or (certified.all() if world.tails == "light" else certified.any()), certified.sum()
     if world.tails == "light":
         assert np.median([c.high / c.low for c in claims]) < 4, "so wide an interval says nothing"
 
