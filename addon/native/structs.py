@@ -175,6 +175,7 @@ class RenderDesc(ctypes.Structure):
         ("max_scatter", c_int64),
         ("passes", c_uint32),
         ("adaptive", c_int),
+        ("full_kernel", c_int),
     ]
 
 

@@ -146,6 +146,8 @@ Options parse_options(int argc, char **argv) {
     app.add_option("--error", error, "stop when the relMSE is below this with confidence")->type_name("RELMSE");
     app.add_flag("--adaptive", options.adaptive,
                  "more samples where the picture needs them, fewer elsewhere; --spp is the mean");
+    app.add_flag("--full-kernel", options.full_kernel,
+                 "run the code for all scenes, not what was compiled for ones like this: slower, the same bits");
     app.add_option("--integrator", integrator, "method; see --list-integrators")->type_name("NAME");
     app.add_option("--seed", seed, "another seed gives independent noise (default 0)")->type_name("N");
     app.add_option("--threads", threads, "worker threads (default: all cores)")->type_name("N");

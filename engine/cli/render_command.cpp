@@ -38,6 +38,7 @@ RenderHandle create_render(glimmer_scene *scene, const DepthLimits &limits, cons
     desc.threads = options.threads;
     desc.tile_size = options.tile;
     desc.adaptive = options.adaptive;
+    desc.full_kernel = options.full_kernel;
     desc.max_depth = limits.max_depth;
     desc.max_scatter = limits.max_scatter;
     desc.passes = options.passes | 1u << GLIMMER_PASS_COMBINED | 1u << GLIMMER_PASS_STDERR;

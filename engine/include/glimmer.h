@@ -282,9 +282,11 @@ typedef struct glimmer_render_desc {
     int64_t max_depth;   /* scattering vertices of a path; -1: no limit (a limit is a bias, and named as one) */
     int64_t max_scatter; /* the same for volume vertices alone */
     uint32_t passes;     /* bit set of (1 << glimmer_pass); combined is always there */
-    int adaptive; /* not 0: from 16 samples on, pixels that need it take more samples and others fewer, 1/4 to 4 a
-                     pass; `samples`, here and in progress and tile, is then the mean over the picture. Unbiased;
-                     0 by default */
+    int adaptive;    /* not 0: from 16 samples on, pixels that need it take more samples and others fewer, 1/4 to 4 a
+                        pass; `samples`, here and in progress and tile, is then the mean over the picture. Unbiased;
+                        0 by default */
+    int full_kernel; /* not 0: the code that can render any scene, in place of what was compiled for ones like this:
+                        slower, the same bits; for tests. 0 by default */
 } glimmer_render_desc;
 
 GLIMMER_API void glimmer_render_init(glimmer_render_desc *desc);

@@ -17,6 +17,7 @@ void create_render(Input &in, Handles &handles, glimmer_scene *scene) {
     desc.target_error = in.ConsumeBool() ? 0 : in.number();
     desc.seed = in.ConsumeIntegral<uint64_t>();
     desc.adaptive = desc.seed & 1;
+    desc.full_kernel = desc.seed >> 1 & 1;
     desc.threads = in.ConsumeIntegralInRange<uint32_t>(1, 3);
     desc.tile_size = in.ConsumeBool() ? in.ConsumeIntegralInRange<uint32_t>(0, 64) : 65537;
     desc.max_depth = in.ConsumeIntegralInRange<int64_t>(-2, 4);

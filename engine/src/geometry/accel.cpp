@@ -149,31 +149,6 @@ size_t Accel::bytes() const {
     return instances_.size() * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + bvh_bytes_;
 }
 
-bool Accel::can_trace(const Ray &ray) const {
-    const Vec3f &o = ray.origin, &d = ray.direction; // written so that NaN fails
-    return std::abs(o.x) <= reach_ && std::abs(o.y) <= reach_ && std::abs(o.z) <= reach_ && std::abs(d.x) <= 2 &&
-           std::abs(d.y) <= 2 && std::abs(d.z) <= 2 && !std::isnan(ray.t_max);
-}
-
-std::optional<Hit> Accel::nearest_sphere(Ray ray) const {
-    std::optional<Hit> hit;
-    const Vec3d origin(ray.origin), direction(ray.direction);
-    for (uint32_t i = 0; i < spheres_.size(); ++i)
-        if (const auto t = first_root(spheres_[i], origin, direction, double(ray.t_max))) {
-            ray.t_max = *t;
-            hit = Hit{*t, kNone, i, 0, 0};
-        }
-    return hit;
-}
-
-bool Accel::behind_sphere(const Ray &ray, uint32_t ignored_sphere) const {
-    const Vec3d origin(ray.origin), direction(ray.direction);
-    for (uint32_t i = 0; i < spheres_.size(); ++i)
-        if (i != ignored_sphere && first_root(spheres_[i], origin, direction, double(ray.t_max)))
-            return true;
-    return false;
-}
-
 std::optional<Hit> Accel::intersect(const Ray &ray) const {
     if (!can_trace(ray))
         return std::nullopt;

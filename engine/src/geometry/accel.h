@@ -6,6 +6,7 @@
 #include "geometry/ray.h"
 #include "geometry/sphere.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -45,6 +46,14 @@ class Accel {
     /// Whether anything stands before t_max. `ignored_sphere` is looked through (the light a shadow ray aims at).
     bool occluded(const Ray &ray, uint32_t ignored_sphere = kNone) const;
 
+    /// intersect() and occluded() where without_bvh(), without a call.
+    std::optional<Hit> intersect_few(const Ray &ray) const {
+        return can_trace(ray) ? nearest_sphere(ray) : std::nullopt;
+    }
+    bool occluded_by_few(const Ray &ray, uint32_t ignored_sphere) const {
+        return can_trace(ray) && behind_sphere(ray, ignored_sphere);
+    }
+
     /// Nothing but a handful of spheres: trying them one by one is faster than a BVH and gives the same bits.
     bool without_bvh() const { return instances_.empty() && spheres_.size() <= kFewSpheres; }
     /// Of all but the meshes.
@@ -53,9 +62,28 @@ class Accel {
     const std::vector<Sphere> &spheres() const { return spheres_; }
 
   private:
-    bool can_trace(const Ray &ray) const;
-    std::optional<Hit> nearest_sphere(Ray ray) const;
-    bool behind_sphere(const Ray &ray, uint32_t ignored_sphere) const;
+    bool can_trace(const Ray &ray) const { // written so that NaN fails
+        const Vec3f &o = ray.origin, &d = ray.direction;
+        return std::abs(o.x) <= reach_ && std::abs(o.y) <= reach_ && std::abs(o.z) <= reach_ && std::abs(d.x) <= 2 &&
+               std::abs(d.y) <= 2 && std::abs(d.z) <= 2 && !std::isnan(ray.t_max);
+    }
+    std::optional<Hit> nearest_sphere(Ray ray) const {
+        std::optional<Hit> hit;
+        const Vec3d origin(ray.origin), direction(ray.direction);
+        for (uint32_t i = 0; i < spheres_.size(); ++i)
+            if (const auto t = first_root(spheres_[i], origin, direction, double(ray.t_max))) {
+                ray.t_max = *t;
+                hit = Hit{*t, kNone, i, 0, 0};
+            }
+        return hit;
+    }
+    bool behind_sphere(const Ray &ray, uint32_t ignored_sphere) const {
+        const Vec3d origin(ray.origin), direction(ray.direction);
+        for (uint32_t i = 0; i < spheres_.size(); ++i)
+            if (i != ignored_sphere && first_root(spheres_[i], origin, direction, double(ray.t_max)))
+                return true;
+        return false;
+    }
 
     static constexpr size_t kFewSpheres = 8;
 

@@ -5,8 +5,9 @@
 
 namespace glimmer {
 
-std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits) {
-    return make_path_integrator(scene, limits, index == 0 ? PathOptions{} : kReportOptions);
+std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
+                                                  bool full_kernel) {
+    return make_path_integrator(scene, limits, index == 0 ? PathOptions{} : kReportOptions, full_kernel);
 }
 
 } // namespace glimmer

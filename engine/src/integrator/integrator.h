@@ -65,8 +65,10 @@ class Integrator {
     /// Radiance along the camera ray of one sample. block: of its pass and pixel; null where nothing is shared.
     virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
                               RayCounter &rays) const = 0;
-    /// Names the code that runs, and what of the engine the scene does not need.
+    /// Names the code that runs.
     virtual std::string kernel() const = 0;
+    /// What the scene has no use for, a line each.
+    virtual std::vector<std::string> left_out() const = 0;
 };
 
 inline constexpr std::array<glimmer_integrator_info_t, 2> kIntegrators{{
@@ -74,7 +76,8 @@ inline constexpr std::array<glimmer_integrator_info_t, 2> kIntegrators{{
     {"report", "the student report's method, as a yardstick: one light, exponential free flights, balance heuristic"},
 }};
 
-/// `index` into kIntegrators.
-std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits);
+/// `index` into kIntegrators. full_kernel: the code for all scenes, not what was compiled for ones like this.
+std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
+                                                  bool full_kernel);
 
 } // namespace glimmer

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/path.h"
 
-#include "integrator/path_sample.h"
+#include "integrator/path_kernels.h"
 #include "integrator/seen_lights.h"
 #include "integrator/surroundings.h"
 
@@ -11,11 +11,13 @@ namespace {
 
 class PathIntegrator final : public Integrator {
   public:
-    PathIntegrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options)
+    PathIntegrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options, bool full_kernel)
         : scene_(scene), limits_(limits), options_(options), around_camera_(glass_around(scene, Vec3f())),
           seen_lights_(scene, around_camera_.empty() && !rays_start_apart() ? options.light_rays : 0) {
         if (options_.light_vertices && options_.line_lights && options_.deep_line_lights)
             pool_ = plan_light_pool(scene, limits, around_camera_);
+        needed_ = needed_by(scene, options, pool_ != nullptr);
+        kernel_ = &path_kernel(full_kernel ? kEverything : needed_);
     }
 
     bool shares() const override { return pool_ != nullptr; }
@@ -30,13 +32,13 @@ class PathIntegrator final : public Integrator {
 
     FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
                       RayCounter &rays) const override {
-        PathState state;
-        state.ray = camera.ray;
-        state.glass = rays_start_apart() ? glass_around(scene_, camera.ray.origin) : around_camera_;
         const auto *pool = static_cast<const LightPoolBlock *>(block);
         const uint32_t light_rays = seen_lights_.rays(camera.pixel_x, camera.pixel_y);
         const float seen_part = 1 / float(1 + light_rays);
-        FilmSample result = PathSample(scene_, limits_, options_, pool, seen_part, sampler, rays).run(state);
+        const PathWork work{scene_, limits_, options_, pool, seen_part};
+        FilmSample result = rays_start_apart() ? kernel_->sample(work, camera.ray,
+                                                                 glass_around(scene_, camera.ray.origin), sampler, rays)
+                                               : kernel_->sample(work, camera.ray, around_camera_, sampler, rays);
         if (light_rays)
             result.emission += seen_lights_.sum(light_rays, camera.pixel_x, camera.pixel_y, sampler, rays) * seen_part;
         if (pool) {
@@ -47,10 +49,12 @@ class PathIntegrator final : public Integrator {
     }
 
     std::string kernel() const override {
-        if (options_ == kReportOptions)
-            return "report";
-        return pool_ ? "path with shared light vertices" : "path";
+        const std::string name = options_ == kReportOptions ? "report"
+                                 : pool_                    ? "path with shared light vertices"
+                                                            : "path";
+        return name + " (compiled for " + kernel_->name + ")";
     }
+    std::vector<std::string> left_out() const override { return glimmer::left_out(needed_); }
 
   private:
     /// A lens or the near plane may carry camera rays across a wall of glass.
@@ -62,13 +66,15 @@ class PathIntegrator final : public Integrator {
     GlassStack around_camera_;
     SeenLights seen_lights_;
     std::unique_ptr<const LightPool> pool_;
+    Features needed_;
+    const PathKernel *kernel_ = nullptr;
 };
 
 } // namespace
 
 std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
-                                                       const PathOptions &options) {
-    return std::make_unique<PathIntegrator>(scene, limits, options);
+                                                       const PathOptions &options, bool full_kernel) {
+    return std::make_unique<PathIntegrator>(scene, limits, options, full_kernel);
 }
 
 } // namespace glimmer

@@ -3,8 +3,7 @@
 // and light met by chance), path_fog.cpp, path_surface.cpp, path_vertices.cpp (light vertices shared by all pixels).
 #pragma once
 
-#include "integrator/light_pool.h"
-#include "integrator/path.h"
+#include "integrator/path_kernels.h"
 #include "integrator/path_state.h"
 #include "light/line_sampler.h"
 
@@ -23,29 +22,32 @@ inline constexpr size_t kBranches =
 enum Set : uint32_t { kSetCollision = 2, kSetPhase, kSetLine = 16, kSetLight = 80, kSetLobe = 128, kSetBsdf };
 
 /// The branches of one sample, kept from sample to sample so that the path loop allocates nothing.
-inline std::vector<PathState> &thread_stack() {
-    thread_local std::vector<PathState> stack;
+template <class State>
+std::vector<State> &thread_stack() {
+    thread_local std::vector<State> stack;
     return stack;
 }
 
+template <Features F>
 class PathSample {
   public:
-    PathSample(const Scene &scene, const DepthLimits &limits, const PathOptions &options, const LightPoolBlock *pool,
-               float seen_part, Sampler &sampler, RayCounter &rays)
-        : scene_(scene), limits_(limits), options_(options), pool_(pool), seen_part_(seen_part), sampler_(sampler),
-          rays_(rays) {
-        if (scene_.medium) {
+    using State = PathState<F>;
+
+    PathSample(const PathWork &work, Sampler &sampler, RayCounter &rays)
+        : scene_(work.scene), limits_(work.limits), switches_(work.options), pool_(work.pool),
+          seen_part_(work.seen_part), sampler_(sampler), rays_(rays) {
+        if (F.fog && scene_.medium) {
             const Rgb &s = scene_.medium->sigma_t;
             sigma_ = std::min(s.r, std::min(s.g, s.b));
         }
     }
 
-    FilmSample run(const PathState &camera) {
+    FilmSample run(const State &camera) {
         stack_.clear();
         push(camera);
         uint64_t vertices = 0;
         while (!stack_.empty() && ++vertices < kVertexGuard && (vertices % kVerticesALook || !rays_.stopped())) {
-            PathState next = stack_.back();
+            State next = stack_.back();
             stack_.pop_back();
             follow(next);
         }
@@ -56,18 +58,30 @@ class PathSample {
   private:
     // -- One segment
     // -----------------------------------------------------------------------------------------------------
-    void follow(PathState &state);
+    void follow(State &state);
+    const PathOptions &options() const {
+        if constexpr (F.switches)
+            return switches_;
+        else
+            return kAllEstimators;
+    }
+    /// Of the segment; null where there is none.
+    const Homogeneous *fog_of(const State &state) const {
+        return F.fog && scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+    }
+    /// Whether the fog's light comes from the pool; asked only where fog scatters.
+    bool pooled() const { return !F.fog_walks || pool_; }
 
     // -- Light vertices
     // --------------------------------------------------------------------------------------------------
     /// Points in the fog of the segment that are joined to the pool; several where the camera sees it directly.
-    void gather_along(const PathState &state, float end, const Homogeneous &fog);
+    void gather_along(const State &state, float end, const Homogeneous &fog);
     /// All light that reaches state.ray.origin scattered, as the fog scatters it there: from the pool, and by a short
     /// ray for what the pool's bounded connections leave out: false where that ends. `scale`: the point is one of so
     /// many. `t`: from where the camera's ray starts, 0 off it, where no splats are.
-    bool gather(PathState &state, float scale, float t);
+    bool gather(State &state, float scale, float t);
     /// The share 1 - w(d) of the vertex that a ray from a gather meets; beyond, what no vertex holds (held_share.h).
-    void compensate(PathState &state, const Homogeneous &fog);
+    void compensate(State &state, const Homogeneous &fog);
     /// The largest transmittance of a channel as far as absorption goes.
     static float least_absorbed(const Homogeneous &fog, float t) {
         return std::exp(-optical_depth(std::min(fog.sigma_a.r, std::min(fog.sigma_a.g, fog.sigma_a.b)), t));
@@ -75,22 +89,21 @@ class PathSample {
 
     // -- Light met by chance
     // ---------------------------------------------------------------------------------------------
-    void add_emission(const PathState &state, const Hit &hit, const Interaction &surface, const Homogeneous *fog);
-    void add_lamps(const PathState &state, float end, const Homogeneous *fog);
-    void add_infinity(const PathState &state, const Homogeneous *fog);
-    void add_seen(const PathState &state, const Rgb &radiance, float distance, const Homogeneous *fog);
+    void add_emission(const State &state, const Hit &hit, const Interaction &surface, const Homogeneous *fog);
+    void add_lamps(const State &state, float end, const Homogeneous *fog);
+    void add_infinity(const State &state, const Homogeneous *fog);
+    void add_seen(const State &state, const Rgb &radiance, float distance, const Homogeneous *fog);
     /// The weight of a light met by chance against having been sampled from the vertex before.
-    float direction_weight(const PathState &state, uint32_t light, uint32_t triangle, float distance,
-                           float cosine) const;
+    float direction_weight(const State &state, uint32_t light, uint32_t triangle, float distance, float cosine) const;
 
     // -- Choice of lights: the expected number of samples of a light takes the place of its probability --------
     /// Whether light is sampled along this segment, or at the collision that ends it.
-    bool lights_along(const PathState &state) const {
-        return state.direct_view() ? options_.line_lights : options_.deep_line_lights;
+    bool lights_along(const State &state) const {
+        return state.direct_view() ? options().line_lights : options().deep_line_lights;
     }
-    bool every_light(bool all) const { return all && options_.all_lights && scene_.lights.size() <= kAllLights; }
+    bool every_light(bool all) const { return all && options().all_lights && scene_.lights.size() <= kAllLights; }
     uint32_t choices(bool all) const {
-        return every_light(all) ? scene_.lights.size() : all && options_.all_lights ? kManyLights : 1;
+        return every_light(all) ? scene_.lights.size() : all && options().all_lights ? kManyLights : 1;
     }
     /// The i-th choice at a place: x, or the segment (origin, direction, end).
     template <class... Place>
@@ -98,8 +111,8 @@ class PathSample {
         if (every_light(all))
             return {i, 1};
         const float u = sampler_.next_1d(), n = float(scene_.lights.size());
-        LightChoice choice = options_.guided_choice ? scene_.lights.choose(place..., sigma_, u)
-                                                    : LightChoice{std::min(uint32_t(u * n), uint32_t(n) - 1), 1 / n};
+        LightChoice choice = options().guided_choice ? scene_.lights.choose(place..., sigma_, u)
+                                                     : LightChoice{std::min(uint32_t(u * n), uint32_t(n) - 1), 1 / n};
         choice.probability *= float(choices(all));
         return choice;
     }
@@ -107,9 +120,15 @@ class PathSample {
     float expected_samples(bool all, uint32_t light, const Place &...place) const {
         if (every_light(all))
             return 1;
-        const float probability = options_.guided_choice ? scene_.lights.probability(light, place..., sigma_)
-                                                         : 1 / float(scene_.lights.size());
+        const float probability = options().guided_choice ? scene_.lights.probability(light, place..., sigma_)
+                                                          : 1 / float(scene_.lights.size());
         return float(choices(all)) * probability;
+    }
+    std::optional<LightSample> sample_light(uint32_t light, const Vec3f &x, Vec2f u) const {
+        if constexpr (F.other_lights)
+            return glimmer::sample_light(scene_.lights[light], x, u);
+        else
+            return glimmer::sample_light(std::get<SphereLight>(scene_.lights[light]), x, u);
     }
     LineSampler line_sampler(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
         const LightBound &b = scene_.lights.bound(light);
@@ -119,15 +138,14 @@ class PathSample {
     // -- Fog
     // -------------------------------------------------------------------------------------------------------------
     /// The light that the fog scatters once into the segment.
-    void sample_lights_along(const PathState &state, float end, const Homogeneous &fog, bool split);
+    void sample_lights_along(const State &state, float end, const Homogeneous &fog, bool split);
     /// One path that goes on from within the segment, given that it scatters there.
-    void split_into_fog(const PathState &state, float end, const Homogeneous &fog);
+    void split_into_fog(const State &state, float end, const Homogeneous &fog);
     /// True when the path scattered before the surface; else its throughput is that of a path that passed.
-    bool fly_into_fog(PathState &state, float end, const Homogeneous &fog);
-    void scatter_in_fog(const PathState &state, float end, const Homogeneous &fog, float t, const Rgb &weight,
-                        float pdf);
+    bool fly_into_fog(State &state, float end, const Homogeneous &fog);
+    void scatter_in_fog(const State &state, float end, const Homogeneous &fog, float t, const Rgb &weight, float pdf);
     /// One light at a collision; by_chance: against the phase function that goes on from there and may meet it too.
-    void sample_light_in_fog(const PathState &state, const Vec3f &x, const Homogeneous &fog, bool by_chance);
+    void sample_light_in_fog(const State &state, const Vec3f &x, const Homogeneous &fog, bool by_chance);
 
     // -- Surfaces
     // --------------------------------------------------------------------------------------------------------
@@ -138,7 +156,7 @@ class PathSample {
     static float left_of(Lobes lobes, float held) {
         return lobes == Lobes::all ? 1 : lobes == Lobes::held ? held : 1 - held;
     }
-    void scatter_at_surface(PathState &state, const Interaction &surface, Lobes lobes = Lobes::all);
+    void scatter_at_surface(State &state, const Interaction &surface, Lobes lobes = Lobes::all);
     /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
     /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
     Vec3f lit_point(const Interaction &surface, const Vec3f &geometric) const {
@@ -147,38 +165,38 @@ class PathSample {
         return shining_sphere ? surface.origin_towards(geometric) : surface.position;
     }
     /// The light of `branches` samples of the BSDF comes in beside it.
-    void sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
+    void sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
                           const Vec3f &geometric, const Vec3f &wo, uint32_t branches, Lobes lobes);
-    void pass_glass(PathState &state, const Interaction &surface, const Material &material);
+    void pass_glass(State &state, const Interaction &surface, const Material &material);
 
     // -- Shared
     // ----------------------------------------------------------------------------------------------------------
     std::optional<Hit> intersect(const Ray &ray) {
         ++rays_.rays;
-        return scene_.accel->intersect(ray);
+        return F.bvh ? scene_.accel->intersect(ray) : scene_.accel->intersect_few(ray);
     }
     /// `moved`: how far the origin was moved off its surface at most. A triangle that shines must not shadow itself, so
     /// the ray ends short of it by all errors of both ends, seen along its plane.
     bool occluded(const Vec3f &origin, const LightSample &light, float moved = 0);
     /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow
     /// without bound.
-    bool survives(PathState &state, const Vec3f &x);
+    bool survives(State &state, const Vec3f &x);
     /// The chance of that, for a path of throughput beta at x.
     float survival(const Rgb &beta, float exempt, const Vec3f &x) const;
     /// The same for one more mirror or glass.
-    bool survives_chain(PathState &state);
-    void push(const PathState &state) { stack_.push_back(state); }
+    bool survives_chain(State &state);
+    void push(const State &state) { stack_.push_back(state); }
 
     const Scene &scene_;
     const DepthLimits &limits_;
-    const PathOptions &options_;
+    const PathOptions &switches_;
     const LightPoolBlock *pool_; ///< null: plain paths
     float seen_part_; ///< of the radiance of a sphere that the camera's own ray meets; other rays bring the rest
     Sampler &sampler_;
     RayCounter &rays_;
     float sigma_ = 0; ///< smallest extinction of the channels
     FilmSample result_;
-    std::vector<PathState> &stack_ = thread_stack(); ///< branches still to follow
+    std::vector<State> &stack_ = thread_stack<State>(); ///< branches still to follow
 };
 
 } // namespace glimmer

@@ -3,7 +3,6 @@
 
 #include "light/shapes/ellipse.h"
 #include "light/shapes/rectangle.h"
-#include "light/shapes/sphere.h"
 #include "light/shapes/triangle.h"
 #include "sampling/warp.h"
 
@@ -39,10 +38,7 @@ Vec2f equirectangular(const Vec3f &d) {
 // One overload a light, for std::visit.
 
 std::optional<LightSample> sample(const SphereLight &light, const Vec3f &x, Vec2f u) {
-    const auto s = sample_sphere(light.sphere.center - Vec3d(x), light.sphere.radius, u);
-    if (!s)
-        return std::nullopt;
-    return LightSample{s->wi, s->distance, light.radiance, s->pdf, false, light.index};
+    return sample_light(light, x, u);
 }
 
 std::optional<LightSample> sample(const MeshLight &light, const Vec3f &x, Vec2f u) {

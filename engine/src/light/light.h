@@ -6,6 +6,7 @@
 
 #include "geometry/ray.h"
 #include "geometry/sphere.h"
+#include "light/shapes/sphere.h"
 #include "light/shapes/sun.h"
 #include "math/vec.h"
 #include "sampling/alias_table.h"
@@ -112,6 +113,13 @@ using Light = std::variant<SphereLight, MeshLight, PointLamp, BallLamp, AreaLamp
 
 /// Towards the light from x. Nothing where it cannot shine.
 std::optional<LightSample> sample_light(const Light &light, const Vec3f &x, Vec2f u);
+
+inline std::optional<LightSample> sample_light(const SphereLight &light, const Vec3f &x, Vec2f u) {
+    const auto s = sample_sphere(light.sphere.center - Vec3d(x), light.sphere.radius, u);
+    if (!s)
+        return std::nullopt;
+    return LightSample{s->wi, s->distance, light.radiance, s->pdf, false, light.index};
+}
 
 /// The density, per solid angle at x, with which sample_light gives `direction`, known to meet the light. For a mesh
 /// light `triangle` (of MeshLight::triangles) is the one met, `distance` away and seen under `cosine` from its normal.

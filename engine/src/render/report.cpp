@@ -102,7 +102,9 @@ std::string Session::report_json() {
     out += ", \"seconds_to_target\": " + seconds_left(p.seconds_to_target);
     out += ", \"biased_by\": " + list(biased);
     out += ", \"kernel\": " + quoted(integrator_->kernel());
-    out += ", \"left_out\": " + list(scene_->left_out);
+    std::vector<std::string> left_out = integrator_->left_out();
+    left_out.insert(left_out.end(), scene_->left_out.begin(), scene_->left_out.end());
+    out += ", \"left_out\": " + list(left_out);
     out += ", \"warnings\": " + list(scene_->warnings);
     return out + "}";
 }

@@ -43,7 +43,7 @@ void keep_denormals() {
 
 Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings &settings)
     : scene_(std::move(scene)), settings_(settings),
-      integrator_(make_integrator(settings.integrator, *scene_, settings.limits)),
+      integrator_(make_integrator(settings.integrator, *scene_, settings.limits, settings.full_kernel)),
       film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes, settings.adaptive),
       dirty_(film_.tiles().size(), false) {
     if (!settings_.samples && settings_.seconds <= 0 && settings_.target_error <= 0)

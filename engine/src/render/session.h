@@ -23,7 +23,8 @@ struct RenderSettings {
     uint64_t seed = 0;
     uint32_t threads = 0, tile_size = 64, passes = 1;
     DepthLimits limits;
-    bool adaptive = false; ///< film/sample_plan.h
+    bool adaptive = false;    ///< film/sample_plan.h
+    bool full_kernel = false; ///< make_integrator
 };
 
 struct InvalidSample {

@@ -46,6 +46,7 @@ void SceneBuilder::use(uint32_t index) {
     const Material &material = scene_.materials[index];
     used_[index] = true;
     scene_.has_glass |= material.kind == MaterialKind::glass;
+    scene_.has_surfaces |= material.kind == MaterialKind::glass || material.lobe_count > 0;
     scene_.peak = std::max(scene_.peak, material.kind == MaterialKind::glass ? kInfinity : peak(scene_.bsdf(material)));
 }
 

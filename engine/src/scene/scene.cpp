@@ -51,22 +51,14 @@ void SceneBuilder::list_left_out() {
     const auto count = [](size_t n, const std::string &what) {
         return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
     };
-    if (!scene_.medium)
-        out.push_back("no fog: no distance sampling, no transmittance");
-    else if (!scene_.medium->scatters())
+    if (scene_.medium && !scene_.medium->scatters())
         out.push_back("fog that does not scatter: no distance sampling");
     if (scene_.medium && scene_.medium->grey)
         out.push_back("grey fog: one channel of transmittance");
     if (scene_.medium && scene_.medium->g == 0)
         out.push_back("isotropic fog: no phase function");
-    if (!scene_.has_glass)
-        out.push_back("no glass: no search for the bodies around the camera");
-    if (scene_.accel->without_bvh())
-        out.push_back("a few spheres alone: no BVH");
     if (scene_.camera.lens_radius == 0)
         out.push_back("pinhole camera: no lens sampling");
-    if (scene_.lights.lamps().empty())
-        out.push_back("no lamps with a size: no lamp intersections");
     size_t unused = 0;
     for (size_t i = 0; i < used_.size(); ++i)
         unused += !used_[i];

@@ -60,7 +60,7 @@ class Scene {
     std::optional<Homogeneous> medium;
     std::unique_ptr<Accel> accel;
     LightSet lights;
-    bool has_glass = false;
+    bool has_glass = false, has_surfaces = false; ///< anything that scatters light
     float peak = 0;          ///< largest of the materials in use (see peak(Bsdf)); infinite with glass
     Vec3f bounds_center;     ///< of all surfaces and finite lights
     float bounds_radius = 0; ///< 0: there are none

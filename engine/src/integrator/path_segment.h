@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One segment of a path: what stands at its end, what shines on the way.
+#pragma once
+
 #include "integrator/glass_crossing.h"
 #include "integrator/mis.h"
 #include "integrator/path_sample.h"
@@ -9,8 +11,9 @@
 
 namespace glimmer {
 
-void PathSample::follow(PathState &state) {
-    const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+template <Features F>
+void PathSample<F>::follow(State &state) {
+    const Homogeneous *fog = fog_of(state);
     if (state.compensates())
         return compensate(state, *fog);
     const std::optional<Hit> hit = intersect(state.ray);
@@ -30,15 +33,17 @@ void PathSample::follow(PathState &state) {
         return;
 
     if (fog && fog->scatters() && state.scatter < limits_.scatter) {
-        const bool split = pool_ || (options_.split && state.direct_view() && stack_.size() < kBranches);
+        const bool split = pooled() || (options().split && state.direct_view() && stack_.size() < kBranches);
         if (lights_along(state))
             sample_lights_along(state, end, *fog, split);
-        if (pool_)
+        if (pooled()) {
             gather_along(state, end, *fog);
-        else if (split)
-            split_into_fog(state, end, *fog);
-        else if (fly_into_fog(state, end, *fog))
-            return;
+        } else if constexpr (F.fog_walks) {
+            if (split)
+                split_into_fog(state, end, *fog);
+            else if (fly_into_fog(state, end, *fog))
+                return;
+        }
         if (split && surface)
             state.beta *= fog->transmittance(end);
     } else if (fog && surface) {
@@ -48,11 +53,13 @@ void PathSample::follow(PathState &state) {
         return;
     if (fog && state.direct_view()) // an absorber in front of everything dims the picture, not what is behind it
         state.exempt *= least_absorbed(*fog, end);
-    scatter_at_surface(state, *surface);
+    if constexpr (F.surfaces)
+        scatter_at_surface(state, *surface);
 }
 
-void PathSample::add_emission(const PathState &state, const Hit &hit, const Interaction &surface,
-                              const Homogeneous *fog) {
+template <Features F>
+void PathSample<F>::add_emission(const State &state, const Hit &hit, const Interaction &surface,
+                                 const Homogeneous *fog) {
     const Rgb &emission = scene_.materials[surface.material].emission;
     if (is_black(emission))
         return;
@@ -60,7 +67,7 @@ void PathSample::add_emission(const PathState &state, const Hit &hit, const Inte
     if (hit.instance == kNone) {
         const uint32_t light = scene_.lights.of_sphere(hit.primitive);
         weight = state.depth == 0 ? seen_part_ : direction_weight(state, light, kNone, hit.t, 1);
-    } else if (scene_.lights.of_meshes() != kNone) {
+    } else if (F.other_lights && scene_.lights.of_meshes() != kNone) {
         const auto &mesh = std::get<MeshLight>(scene_.lights[scene_.lights.of_meshes()]);
         const uint32_t triangle = mesh.triangle_of[mesh.first_of_instance[hit.instance] + hit.primitive];
         if (triangle != kNone)
@@ -70,8 +77,9 @@ void PathSample::add_emission(const PathState &state, const Hit &hit, const Inte
     add_seen(state, emission * weight, hit.t, fog);
 }
 
-void PathSample::add_lamps(const PathState &state, float end, const Homogeneous *fog) {
-    if (state.depth == 0) // the camera does not see lamps
+template <Features F>
+void PathSample<F>::add_lamps(const State &state, float end, const Homogeneous *fog) {
+    if (!F.other_lights || state.depth == 0) // the camera does not see lamps
         return;
     Ray ray = state.ray;
     ray.t_max = end;
@@ -80,7 +88,10 @@ void PathSample::add_lamps(const PathState &state, float end, const Homogeneous 
             add_seen(state, lamp->radiance * direction_weight(state, light, kNone, lamp->t, 1), lamp->t, fog);
 }
 
-void PathSample::add_infinity(const PathState &state, const Homogeneous *fog) {
+template <Features F>
+void PathSample<F>::add_infinity(const State &state, const Homogeneous *fog) {
+    if (!F.other_lights)
+        return;
     for (uint32_t light : scene_.lights.infinite()) {
         const bool sun = std::holds_alternative<SunLamp>(scene_.lights[light]);
         if (sun && state.depth == 0)
@@ -91,52 +102,66 @@ void PathSample::add_infinity(const PathState &state, const Homogeneous *fog) {
     }
 }
 
-void PathSample::add_seen(const PathState &state, const Rgb &radiance, float distance, const Homogeneous *fog) {
+template <Features F>
+void PathSample<F>::add_seen(const State &state, const Rgb &radiance, float distance, const Homogeneous *fog) {
     const Rgb value = state.beta * radiance * (fog ? fog->transmittance(distance) : Rgb(1));
     switch (state.first) {
-    case PathState::First::none:
+    case First::none:
         result_.emission += value;
         break;
-    case PathState::First::fog:
+    case First::fog:
         result_.fog += value;
         break;
-    case PathState::First::surface:
+    case First::surface:
         (state.order == 1 ? result_.direct : result_.indirect) += value;
     }
 }
 
-float PathSample::direction_weight(const PathState &state, uint32_t light, uint32_t triangle, float distance,
-                                   float cosine) const {
-    const DirectionOrigin &o = state.origin;
-    if (o.kind == DirectionOrigin::Kind::specular || light == kNone)
-        return 1;
-    const float at_light = light_pdf(scene_.lights[light], o.position, state.ray.direction, triangle, distance, cosine);
-    if (o.kind == DirectionOrigin::Kind::surface)
-        return balance(o.pdf, expected_samples(o.all_lights, light, o.position) * at_light);
-    if (scene_.lights.bound(light).infinite)
-        return 1;
-    if (!o.along)
-        return balance(o.pdf, expected_samples(false, light, o.position) * at_light);
-    const LineSampler line = line_sampler(light, o.segment_origin, o.segment_direction, o.segment_end);
-    const float samples = expected_samples(o.all_lights, light, o.segment_origin, o.segment_direction, o.segment_end);
-    return balance(o.distance_pdf * o.pdf, samples * line.pdf(o.distance) * at_light);
+template <Features F>
+float PathSample<F>::direction_weight(const State &state, uint32_t light, uint32_t triangle, float distance,
+                                      float cosine) const {
+    if constexpr (F.meets_lights()) {
+        const auto &o = state.origin;
+        if (o.kind == DirectionKind::specular || light == kNone)
+            return 1;
+        const float at_light =
+            light_pdf(scene_.lights[light], o.position, state.ray.direction, triangle, distance, cosine);
+        if (o.kind == DirectionKind::surface)
+            return balance(o.pdf, expected_samples(o.all_lights, light, o.position) * at_light);
+        if (scene_.lights.bound(light).infinite)
+            return 1;
+        if (!o.along)
+            return balance(o.pdf, expected_samples(false, light, o.position) * at_light);
+        if constexpr (F.fog_walks) {
+            const SegmentOrigin &s = o.segment;
+            const LineSampler line = line_sampler(light, s.origin, s.direction, s.end);
+            const float samples = expected_samples(o.all_lights, light, s.origin, s.direction, s.end);
+            return balance(s.distance_pdf * o.pdf, samples * line.pdf(s.distance) * at_light);
+        }
+    }
+    return 1;
 }
 
-bool PathSample::occluded(const Vec3f &origin, const LightSample &light, float moved) {
+template <Features F>
+bool PathSample<F>::occluded(const Vec3f &origin, const LightSample &light, float moved) {
     ++rays_.rays;
     constexpr float direction_error = 0x1p-21f; // of a unit vector in float32, and of Embree's own arithmetic
     const float short_of_light =
         light.distance * (1 - direction_error / light.facing) - (light.error + moved) / light.facing;
     const float distance = std::max(short_of_light, 0.0f);
-    return scene_.accel->occluded({origin, light.direction, distance}, light.ignored_sphere);
+    const Ray ray{origin, light.direction, distance};
+    return F.bvh ? scene_.accel->occluded(ray, light.ignored_sphere)
+                 : scene_.accel->occluded_by_few(ray, light.ignored_sphere);
 }
 
-float PathSample::survival(const Rgb &beta, float exempt, const Vec3f &x) const {
+template <Features F>
+float PathSample<F>::survival(const Rgb &beta, float exempt, const Vec3f &x) const {
     const float weight = max_component(beta) / exempt * surroundings_importance(scene_, x);
     return weight > 0 ? std::min(weight, 1.0f) : 0; // NaN does not live on
 }
 
-bool PathSample::survives(PathState &state, const Vec3f &x) {
+template <Features F>
+bool PathSample<F>::survives(State &state, const Vec3f &x) {
     const float weight = survival(state.beta, state.exempt, x);
     if (!(weight > 0))
         return false;
@@ -148,7 +173,8 @@ bool PathSample::survives(PathState &state, const Vec3f &x) {
     return true;
 }
 
-bool PathSample::survives_chain(PathState &state) {
+template <Features F>
+bool PathSample<F>::survives_chain(State &state) {
     const float survival = survival_of_chain(state.chain++);
     if (survival < 1 && sampler_.next_1d() >= survival)
         return false;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scattering in the fog along a segment.
+#pragma once
+
 #include "integrator/mis.h"
 #include "integrator/path_sample.h"
 #include "medium/phase.h"
@@ -8,7 +10,8 @@
 
 namespace glimmer {
 
-void PathSample::sample_lights_along(const PathState &state, float end, const Homogeneous &fog, bool split) {
+template <Features F>
+void PathSample<F>::sample_lights_along(const State &state, float end, const Homogeneous &fog, bool split) {
     if (scene_.lights.size() == 0)
         return;
     const bool camera = state.depth == 0, all = state.direct_view();
@@ -23,8 +26,8 @@ void PathSample::sample_lights_along(const PathState &state, float end, const Ho
         if (!(at.pdf > 0) || !(at.t < kInfinity))
             continue;
         const Vec3f x = origin + direction * at.t;
-        const auto light = sample_light(scene_.lights[choice.index], x,
-                                        camera ? sampler_.stratified_2d(kSetLine + 2 * i + 1) : sampler_.next_2d());
+        const auto light =
+            sample_light(choice.index, x, camera ? sampler_.stratified_2d(kSetLine + 2 * i + 1) : sampler_.next_2d());
         if (!light)
             continue;
         const float p_phase = phase.eval(direction, light->direction);
@@ -33,7 +36,7 @@ void PathSample::sample_lights_along(const PathState &state, float end, const Ho
         if (is_black(unshadowed) || occluded(x, *light))
             continue;
         float weight = 1;
-        if (!light->delta && !pool_) { // a pool's gathers are not lit by chance
+        if (!light->delta && !pooled()) { // a pool's gathers are not lit by chance
             float p_distance =
                 split ? collision_pdf(fog, state.beta, end, at.t) : free_flight_pdf(fog, state.beta, at.t);
             if (p_distance > 0) { // of the paths that scatter there roulette leaves this part
@@ -43,11 +46,12 @@ void PathSample::sample_lights_along(const PathState &state, float end, const Ho
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
         const Rgb value = state.beta * unshadowed * weight;
-        (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
+        (state.first == First::surface ? result_.indirect : result_.fog) += value;
     }
 }
 
-void PathSample::split_into_fog(const PathState &state, float end, const Homogeneous &fog) {
+template <Features F>
+void PathSample<F>::split_into_fog(const State &state, float end, const Homogeneous &fog) {
     const bool camera = state.depth == 0;
     const Collision c =
         camera ? sample_collision(fog, state.beta, end, sampler_.next_1d(), sampler_.stratified_bits(kSetCollision))
@@ -56,7 +60,8 @@ void PathSample::split_into_fog(const PathState &state, float end, const Homogen
         scatter_in_fog(state, end, fog, c.t, c.weight, c.pdf);
 }
 
-bool PathSample::fly_into_fog(PathState &state, float end, const Homogeneous &fog) {
+template <Features F>
+bool PathSample<F>::fly_into_fog(State &state, float end, const Homogeneous &fog) {
     const FreeFlight flight = sample_free_flight(fog, state.beta, end, sampler_);
     if (!flight.scattered) {
         state.beta *= flight.weight;
@@ -67,9 +72,10 @@ bool PathSample::fly_into_fog(PathState &state, float end, const Homogeneous &fo
     return true;
 }
 
-void PathSample::scatter_in_fog(const PathState &state, float end, const Homogeneous &fog, float t, const Rgb &weight,
-                                float pdf) {
-    PathState next = state;
+template <Features F>
+void PathSample<F>::scatter_in_fog(const State &state, float end, const Homogeneous &fog, float t, const Rgb &weight,
+                                   float pdf) {
+    State next = state;
     next.beta *= weight;
     const Vec3f x = state.ray.origin + state.ray.direction * t;
     const bool along = lights_along(state);
@@ -83,22 +89,23 @@ void PathSample::scatter_in_fog(const PathState &state, float end, const Homogen
     const PhaseSample s = HenyeyGreenstein{fog.g}.sample(state.ray.direction, camera ? sampler_.stratified_2d(kSetPhase)
                                                                                      : sampler_.next_2d());
     next.ray = {x, s.direction};
-    next.origin = {DirectionOrigin::Kind::fog, state.direct_view(), along, s.pdf, x,
-                   state.ray.origin,           state.ray.direction, end,   t,     pdf};
+    next.origin = {
+        DirectionKind::fog, state.direct_view(), along, s.pdf, x, {state.ray.origin, state.ray.direction, end, t, pdf}};
     ++next.depth;
     ++next.scatter;
     next.chain = 0;
     if (state.direct_view())
-        next.first = PathState::First::fog;
+        next.first = First::fog;
     ++next.order;
     push(next);
 }
 
-void PathSample::sample_light_in_fog(const PathState &state, const Vec3f &x, const Homogeneous &fog, bool by_chance) {
+template <Features F>
+void PathSample<F>::sample_light_in_fog(const State &state, const Vec3f &x, const Homogeneous &fog, bool by_chance) {
     if (scene_.lights.size() == 0)
         return;
     const LightChoice choice = choose(0, false, x);
-    const auto light = sample_light(scene_.lights[choice.index], x, sampler_.next_2d());
+    const auto light = sample_light(choice.index, x, sampler_.next_2d());
     if (!light)
         return;
     const float p_phase = HenyeyGreenstein{fog.g}.eval(state.ray.direction, light->direction);
@@ -108,7 +115,7 @@ void PathSample::sample_light_in_fog(const PathState &state, const Vec3f &x, con
         return;
     const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);
     const Rgb value = state.beta * unshadowed * weight;
-    (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
+    (state.first == First::surface ? result_.indirect : result_.fog) += value;
 }
 
 } // namespace glimmer

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scattering at surfaces and glass.
+#pragma once
+
 #include "integrator/glass_crossing.h"
 #include "integrator/held_share.h"
 #include "integrator/mis.h"
@@ -10,13 +12,10 @@
 
 namespace glimmer {
 
-namespace {
+inline constexpr float kShadowRays = 2;
 
-constexpr float kShadowRays = 2;
-
-} // namespace
-
-void PathSample::note_first_surface(const Interaction &surface) {
+template <Features F>
+void PathSample<F>::note_first_surface(const Interaction &surface) {
     result_.hit = true;
     result_.normal = surface.shading_normal;
     result_.depth = dot(surface.position, scene_.camera.forward);
@@ -24,13 +23,15 @@ void PathSample::note_first_surface(const Interaction &surface) {
     result_.material_index = surface.material + 1;
 }
 
-void PathSample::scatter_at_surface(PathState &state, const Interaction &surface, Lobes lobes) {
+template <Features F>
+void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, Lobes lobes) {
     const Material &material = scene_.materials[surface.material];
-    if (material.kind == MaterialKind::glass) {
-        if (lobes != Lobes::held)
-            pass_glass(state, surface, material);
-        return;
-    }
+    if constexpr (F.glass)
+        if (material.kind == MaterialKind::glass) {
+            if (lobes != Lobes::held)
+                pass_glass(state, surface, material);
+            return;
+        }
     const Bsdf bsdf = scene_.bsdf(material);
     if (bsdf.empty() || (lobes == Lobes::unheld && is_held(peak(bsdf))))
         return;
@@ -50,7 +51,7 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
         result_.albedo = albedo(bsdf);
 
     // Where mirrors could send each branch to the next surface that branches, one goes on.
-    const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? options_.surface_branches : 1;
+    const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? options().surface_branches : 1;
     if (!is_specular(bsdf))
         sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, branches, lobes);
 
@@ -62,7 +63,7 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
         const Vec3f wi = normalize(frame.to_world(s->wi));
         if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
             continue;
-        PathState next = state;
+        State next = state;
         next.beta *= s->weight * (1 / float(branches));
         next.exempt /= float(branches);
         if (lobes != Lobes::all && !s->specular)
@@ -76,24 +77,25 @@ void PathSample::scatter_at_surface(PathState &state, const Interaction &surface
             next.order += state.direct_view() ? 0 : 1;
         } else {
             next.chain = 0;
-            next.origin.kind = DirectionOrigin::Kind::surface;
+            next.origin.kind = DirectionKind::surface;
             next.origin.all_lights = every_light(true) || state.direct_view();
             next.origin.pdf = s->pdf * float(branches);
             next.origin.position = lit_point(surface, geometric);
             if (state.direct_view())
-                next.first = PathState::First::surface;
+                next.first = First::surface;
             ++next.order;
         }
         push(next);
     }
 }
 
-void PathSample::sample_lights_at(const PathState &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
-                                  const Vec3f &geometric, const Vec3f &wo, uint32_t branches, Lobes lobes) {
+template <Features F>
+void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
+                                     const Vec3f &geometric, const Vec3f &wo, uint32_t branches, Lobes lobes) {
     if (scene_.lights.size() == 0)
         return;
     const bool camera = state.depth == 0, all = state.direct_view();
-    const Homogeneous *fog = scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
+    const Homogeneous *fog = fog_of(state);
     const Vec3f x = lit_point(surface, geometric);
     struct Candidate {
         LightSample light;
@@ -105,8 +107,8 @@ void PathSample::sample_lights_at(const PathState &state, const Interaction &sur
     const bool few_rays = !all && every_light(true);
     for (uint32_t i = 0; i < choices(all || few_rays); ++i) {
         const LightChoice choice = choose(i, all || few_rays, x);
-        const auto light = sample_light(scene_.lights[choice.index], x,
-                                        camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
+        const auto light =
+            sample_light(choice.index, x, camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
         if (!light || !(dot(light->direction, geometric) > 0))
             continue;
         const Vec3f wi = frame.to_local(light->direction);
@@ -123,9 +125,9 @@ void PathSample::sample_lights_at(const PathState &state, const Interaction &sur
         if (!is_black(value))
             candidates[count++] = {*light, value, value.r + value.g + value.b};
     }
-    Rgb &sum = state.first == PathState::First::none      ? result_.direct
-               : state.first == PathState::First::surface ? result_.indirect
-                                                          : result_.fog;
+    Rgb &sum = state.first == First::none      ? result_.direct
+               : state.first == First::surface ? result_.indirect
+                                               : result_.fog;
     float parts = 0;
     for (uint32_t i = 0; i < count; ++i)
         parts += candidates[i].part;
@@ -140,7 +142,8 @@ void PathSample::sample_lights_at(const PathState &state, const Interaction &sur
     }
 }
 
-void PathSample::pass_glass(PathState &state, const Interaction &surface, const Material &material) {
+template <Features F>
+void PathSample<F>::pass_glass(State &state, const Interaction &surface, const Material &material) {
     const GlassCrossing crossing(surface, material, state.ray.direction, state.glass);
     const GlassSample s = sample_glass(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
     const Vec3f wi = crossing.to_world(s.wi);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light scattered more than once, from the vertices of light paths (light_pool.h).
+#pragma once
+
 #include "integrator/held_share.h"
 #include "integrator/path_sample.h"
 #include "medium/phase.h"
@@ -8,7 +10,8 @@
 
 namespace glimmer {
 
-void PathSample::gather_along(const PathState &state, float end, const Homogeneous &fog) {
+template <Features F>
+void PathSample<F>::gather_along(const State &state, float end, const Homogeneous &fog) {
     const uint32_t n = state.direct_view() ? pool_->settings.gathers : 1;
     const uint64_t stratum = ~0ull / n;
     for (uint32_t k = 0; k < n; ++k) {
@@ -17,23 +20,24 @@ void PathSample::gather_along(const PathState &state, float end, const Homogeneo
         if (!(c.pdf > 0))
             return;
         push(state);
-        PathState &at = stack_.back();
+        State &at = stack_.back();
         at.beta *= c.weight * (1 / float(n));
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
-        at.first = state.direct_view() ? PathState::First::fog : state.first;
+        at.first = state.direct_view() ? First::fog : state.first;
         if (!gather(at, float(n), state.depth == 0 ? c.t : 0))
             stack_.pop_back();
     }
 }
 
-bool PathSample::gather(PathState &state, float scale, float t) {
+template <Features F>
+bool PathSample<F>::gather(State &state, float scale, float t) {
     const Vec3f x = state.ray.origin;
     state.exempt /= scale;
     if (!survives(state, x))
         return false;
     state.exempt *= scale;
     const Rgb value = state.beta * pool_->pool.gather(x, state.ray.direction, sampler_, rays_);
-    (state.first == PathState::First::surface ? result_.indirect : result_.fog) += value;
+    (state.first == First::surface ? result_.indirect : result_.fog) += value;
     const float u = sampler_.next_1d(), k = std::sqrt((1 - u) / std::max(u, 1e-12f)); // P(k d0 > d) = 1 - w(d)
     state.fog_reach = k * pool_->settings.fog_bound;
     state.surface_reach = k * pool_->settings.surface_bound;
@@ -49,7 +53,8 @@ bool PathSample::gather(PathState &state, float scale, float t) {
     return true;
 }
 
-void PathSample::compensate(PathState &state, const Homogeneous &fog) {
+template <Features F>
+void PathSample<F>::compensate(State &state, const Homogeneous &fog) {
     const float fog_reach = state.fog_reach, surface_reach = state.surface_reach;
     const bool splatted = state.splatted;
     state.fog_reach = state.surface_reach = kInfinity;
@@ -68,7 +73,9 @@ void PathSample::compensate(PathState &state, const Homogeneous &fog) {
         sample_light_in_fog(state, state.ray.origin, fog, false);
         if (gather(state, 1, 0))
             push(state);
-    } else if (hit) {
+    } else if constexpr (F.surfaces) {
+        if (!hit)
+            return;
         const Interaction surface = scene_.interaction(state.ray, *hit);
         const bool within = hit->t <= surface_reach;
         if (within || !splatted)
