@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rays against 20 000 instanced plates: Embree alone, Accel, and Accel with the surface that the integrators want of a
 // hit. The same rays for all: half from a camera, half scattered from random places between the plates.
-#include "empty_scene.h"
 #include "geometry/accel.h"
 #include "inputs.h"
+#include "plates.h"
 #include "scene/scene.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace glimmer {
@@ -16,49 +15,6 @@ namespace {
 
 constexpr int kSide = 142; // plates along an edge of the field: 20 164
 constexpr size_t kRays = 1 << 16;
-
-/// A hexagonal prism of radius 1.
-std::shared_ptr<Mesh> plate() {
-    auto mesh = std::make_shared<Mesh>();
-    for (const float z : {-0.1f, 0.1f})
-        for (int i = 0; i < 6; ++i)
-            mesh->vertices.push_back({std::cos(float(i) * std::numbers::pi_v<float> / 3),
-                                      std::sin(float(i) * std::numbers::pi_v<float> / 3), z});
-    mesh->vertices.emplace_back(); // Embree reads 16 bytes at the last
-    for (uint32_t i = 0; i < 6; ++i) {
-        const uint32_t next = (i + 1) % 6;
-        mesh->triangles.push_back({i, next, i + 6});
-        mesh->triangles.push_back({next, next + 6, i + 6});
-    }
-    for (uint32_t i = 1; i < 5; ++i) {
-        mesh->triangles.push_back({0, i + 1, i});
-        mesh->triangles.push_back({6, i + 6, i + 7});
-    }
-    mesh->radius = 1;
-    return mesh;
-}
-
-/// Tilted plates, side by side at different heights.
-SceneDescription field() {
-    SceneDescription scene = empty_scene();
-    MaterialDescription material;
-    glimmer_material_init(&material);
-    scene.materials.push_back(material);
-    ObjectDescription object;
-    object.mesh = plate();
-    object.materials = {0};
-    object.object_indices = {0};
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const auto i = uint64_t(y * kSide + x);
-            const double tilt = 0.2 * double(uniform(1, i)) - 0.1;
-            const double rows[12] = {std::cos(tilt),  0, std::sin(tilt), 1.8 * (x - kSide / 2), 0, 1, 0, 1.8 * y,
-                                     -std::sin(tilt), 0, std::cos(tilt), double(uniform(2, i))};
-            object.instances.push_back(affine_from_rows(rows));
-        }
-    scene.objects.push_back(object);
-    return scene;
-}
 
 std::vector<Ray> make_rays() {
     std::vector<Ray> rays(kRays);
@@ -77,7 +33,7 @@ std::vector<Ray> make_rays() {
 }
 
 struct World {
-    Scene scene{field(), 0};
+    Scene scene{plates(kSide), 0};
     std::vector<Ray> rays = make_rays();
 
     static const World &get() {

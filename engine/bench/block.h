@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Camera samples of one block of pixels, for benchmarks of the path integrator.
+#pragma once
+
+#include "integrator/path.h"
+#include "integrator/path_kernels.h"
+#include "scene/camera_sample.h"
+
+#include <benchmark/benchmark.h>
+
+namespace glimmer {
+
+/// A scene with one pass and one block of it prepared.
+struct BlockWorld {
+    BlockWorld(const SceneDescription &description, const Rectangle &pixels_) : scene(description, 0), pixels(pixels_) {
+        if (integrator->shares()) {
+            pass = integrator->prepare_pass(1, 0, stop, rays);
+            block = integrator->prepare_block(*pass, pixels, rays);
+        }
+    }
+    const LightPoolBlock *pool() const { return static_cast<const LightPoolBlock *>(block.get()); }
+
+    Scene scene;
+    Rectangle pixels;
+    std::unique_ptr<const Integrator> integrator = make_path_integrator(scene, {}, {});
+    RayCounter rays;
+    std::atomic<bool> stop{false};
+    std::unique_ptr<const PassData> pass;
+    std::unique_ptr<const BlockData> block;
+};
+
+/// Sample number `index` of all pixels of the block, by trace(camera ray, sampler) -> FilmSample.
+template <class Trace>
+Rgb block_sum(const BlockWorld &w, uint32_t index, const Trace &trace) {
+    Rgb sum;
+    for (uint32_t y = w.pixels.y; y < w.pixels.y + w.pixels.height; ++y)
+        for (uint32_t x = w.pixels.x; x < w.pixels.x + w.pixels.width; ++x) {
+            Sampler sampler(1, x, y, 0, index);
+            sum += trace(sample_camera_ray(w.scene, x, y, sampler.stratified_2d(0), sampler.stratified_2d(1)), sampler)
+                       .radiance();
+        }
+    return sum;
+}
+
+template <class Trace>
+void run_block(benchmark::State &state, const BlockWorld &w, const Trace &trace) {
+    uint32_t index = 0;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(block_sum(w, index++, trace));
+    state.SetItemsProcessed(state.iterations() * w.pixels.width * w.pixels.height);
+}
+
+/// Whether both give the same bits.
+template <class A, class B>
+bool same_bits(const BlockWorld &w, const A &a, const B &b) {
+    for (uint32_t index = 0; index < 16; ++index)
+        if (!(block_sum(w, index, a) == block_sum(w, index, b)))
+            return false;
+    return true;
+}
+
+} // namespace glimmer
