@@ -3,10 +3,12 @@
 #include "bsdf/conductor.h"
 #include "inputs.h"
 #include "light/line_sampler.h"
-#include "math/simd.h"
+#include "simd/float8.h"
+#include "simd/loops.h"
 
 #include <array>
 #include <benchmark/benchmark.h>
+#include <vector>
 
 namespace glimmer {
 namespace {
@@ -49,6 +51,27 @@ void line_table(benchmark::State &state) {
     });
 }
 BENCHMARK(line_table);
+
+/// A gather's connections to the 128 vertices of a sub-pool; argument: whether in AVX-512.
+void connections(benchmark::State &state) {
+    if (state.range(0) && !loops_avx512())
+        return state.SkipWithError("this processor has no AVX-512");
+    const Loops &of_set = state.range(0) ? kLoopsAvx512 : kLoopsAvx2;
+    constexpr size_t count = 128, pools = 8;
+    std::array<std::vector<float>, 6> columns;
+    for (size_t c = 0; c < columns.size(); ++c)
+        for (size_t i = 0; i < count * pools; ++i)
+            columns[c].push_back(uniform(c, i));
+    std::array<float, count> parts;
+    run(state, [&](size_t i) {
+        const size_t first = i % pools * count;
+        const auto from = [&](size_t c) { return columns[c].data() + first; };
+        return of_set.connect({0.015f, 0.015f, 0.015f, 0, true},
+                              {from(0), from(1), from(2), from(3), from(4), from(5), nullptr, nullptr, nullptr}, count,
+                              {uniform(7, i), 0.5f, 0.5f, 0, 0, 1}, 0.3f, parts.data());
+    });
+}
+BENCHMARK(connections)->Arg(0)->Arg(1);
 
 void exp_of_eight(benchmark::State &state) {
     std::array<float, kInputs + 8> x;

@@ -489,3 +489,73 @@ def sample_plan(sums: ArrayLike) -> Array:
     rates = np.empty((height, width, 8), np.float32)
     _call("probe_plan", values, width, height, rates)
     return rates
+
+
+# ---- loops over vertices and nodes, and the table of a line --------------------------------------------------------
+
+LANES = NODES = 16
+
+
+def has_avx512() -> bool:
+    return bool(_call("probe_has_avx512", returns=ctypes.c_int))
+
+
+class Connections(NamedTuple):
+    parts: Array  # (n)
+    sums: Array  # (20): r, g, b, mean of them, that by lane
+
+
+def connect(wide: bool, medium: ArrayLike, vertices: ArrayLike, point: ArrayLike, bound: float) -> Connections:
+    """medium (4): extinction by channel, g. vertices (6 or 9, n): position, power, flight. point (6): place, view."""
+    v = _f32(vertices)
+    n = v.shape[1]
+    parts, sums = _empty(n), _empty(4 + LANES)
+    _call(
+        *("probe_connect", int(wide), _f32(medium), v, int(len(v) == 9), np.uint64(n), _f32(point)),
+        *(np.float32(bound), parts, sums),
+    )
+    return Connections(parts, sums)
+
+
+def weigh(wide: bool, medium: ArrayLike, vertices: ArrayLike, points: ArrayLike, soften: float) -> Array:
+    """points (m, 6); returns targets (n)."""
+    v, p = _f32(vertices), _f32(points)
+    n = v.shape[1]
+    targets = _empty(n)
+    _call(
+        *("probe_weigh", int(wide), _f32(medium), v, int(len(v) == 9), np.uint64(n), p, np.uint64(len(p))),
+        *(np.float32(soften), targets),
+    )
+    return targets
+
+
+def line_nodes(wide: bool, medium: ArrayLike, shape: ArrayLike) -> Array:
+    """shape (8): t_foot, h, h2, radius, distance, cut, x_first, x_step. Returns the density (16), the last source."""
+    density = _empty(NODES + 1)
+    _call("probe_line_nodes", int(wide), _f32(medium), _f64(shape), density)
+    return density
+
+
+class LineSamples(NamedTuple):
+    t: Array
+    pdf: Array
+
+
+def line(sigma: ArrayLike, g: float, segment: ArrayLike, light: ArrayLike, u: ArrayLike) -> LineSamples:
+    """sigma (2, 3): absorption, scattering. segment (7): origin, direction, end. light (4): centre, radius."""
+    numbers = _f32(u)
+    t, pdf = _empty(len(numbers)), _empty(len(numbers))
+    _call(
+        *("probe_line", _f32(sigma), np.float32(g), _f32(segment), _f32(light), numbers, np.uint64(len(numbers))),
+        *(t, pdf),
+    )
+    return LineSamples(t, pdf)
+
+
+def line_pdf(sigma: ArrayLike, g: float, segment: ArrayLike, light: ArrayLike, t: ArrayLike) -> Array:
+    at = _f32(t)
+    pdf = _empty(len(at))
+    _call(
+        *("probe_line_pdf", _f32(sigma), np.float32(g), _f32(segment), _f32(light), at, np.uint64(len(at)), pdf),
+    )
+    return pdf

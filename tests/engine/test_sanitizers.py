@@ -97,7 +97,7 @@ def fuzz(folder: Path, repository: Path, longer: int = 1) -> None:
     """All fuzzers at once; each must have gone beyond what it started from, and found nothing."""
     processes = {name: start_fuzzer(name, folder / name, repository, runs * longer) for name, runs in FUZZERS.items()}
     for name, process in processes.items():
-        said = process.communicate(timeout=1500)[0]
+        said = process.communicate(timeout=200 * (1 + longer))[0]
         found = [line for line in said.splitlines() if "ERROR" in line or "SUMMARY" in line or line.startswith("fuzz:")]
         assert process.returncode == 0, f"fuzz_{name}: {found}\n{said[-6000:]}"
         new = [line for line in said.splitlines() if line.startswith("stat::new_units_added:")]
@@ -109,6 +109,7 @@ def test_fuzzers(repository: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.full
+@pytest.mark.timeout(7200)
 def test_fuzzers_for_long(repository: Path, tmp_path: Path) -> None:
     fuzz(tmp_path, repository, longer=30)
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/vertex_pool.h"
 
-#include "math/simd.h"
 #include "medium/phase.h"
+#include "simd/loops.h"
 
 #include <array>
 #include <cmath>
@@ -17,18 +17,16 @@ constexpr float kGuided = 0.7f;
 constexpr float kSoften = 3; // targets see bounds this much larger, for points that the representatives are not
 constexpr uint32_t kMostPicks = 512;
 
-/// The Henyey-Greenstein phase function, eight cosines between directions of propagation at a time.
-class Phase8 {
-  public:
-    explicit Phase8(float g) : constant_(1 + g * g), slope_(2 * g), scale_((1 - g) * (1 + g) * kIsotropicPhase) {}
-    Float8 operator()(Float8 cosine) const {
-        const Float8 d2 = max(constant_ - slope_ * cosine, Float8(1e-12f));
-        return scale_ / (d2 * sqrt(d2));
-    }
+LoopMedium for_loops(const Homogeneous &m) {
+    return {m.sigma_t.r, m.sigma_t.g, m.sigma_t.b, m.g, m.grey};
+}
 
-  private:
-    Float8 constant_, slope_, scale_;
-};
+FogColumns columns(const FogVertices &v, size_t first) {
+    const auto from = [&](const std::vector<float> &column) { return column.data() + first; };
+    if (!v.directed)
+        return {from(v.x), from(v.y), from(v.z), from(v.r), from(v.g), from(v.b), nullptr, nullptr, nullptr};
+    return {from(v.x), from(v.y), from(v.z), from(v.r), from(v.g), from(v.b), from(v.dx), from(v.dy), from(v.dz)};
+}
 
 float mean_extinction(const Homogeneous &medium) {
     return (medium.sigma_t.r + medium.sigma_t.g + medium.sigma_t.b) / 3;
@@ -60,6 +58,26 @@ void draw(const std::vector<float> &targets, const std::vector<float> &powers, u
     }
 }
 
+/// The vertex at which the parts, added up lane by lane, exceed `left`; rounding may let `left` outlast them.
+size_t pick_fog_part(const float *parts, size_t count, const ConnectionSums &sums, float left) {
+    size_t lane = 0, last_lane = 0;
+    for (; lane < kLoopLanes && !(left < sums.by_lane[lane]); ++lane) {
+        left -= sums.by_lane[lane];
+        last_lane = sums.by_lane[lane] > 0 ? lane : last_lane;
+    }
+    if (lane == kLoopLanes)
+        lane = last_lane, left = kInfinity;
+    size_t last = lane;
+    for (size_t k = lane; k < count; k += kLoopLanes) {
+        if (parts[k] > 0)
+            last = k;
+        if (left < parts[k])
+            return k;
+        left -= parts[k];
+    }
+    return last;
+}
+
 } // namespace
 
 VertexPool::VertexPool(const Scene &scene, const LightVertices &vertices, const PoolSettings &settings,
@@ -74,37 +92,19 @@ void VertexPool::pick_fog(const FogVertices &vertices, const std::vector<Vec3f> 
     const float u = sampler.next_1d();
     if (n == 0)
         return;
-    std::vector<float> targets(n + 8), powers(n);
-    const Float8 sigma(-mean_extinction(*scene_.medium)),
-        soften(kSoften * kSoften * settings_.fog_bound * settings_.fog_bound);
-    const bool even = !vertices.directed;
     fog_.directed = vertices.directed;
-    const Phase8 phase(scene_.medium->g);
-    size_t j = 0;
-    for (; j + 8 <= n; j += 8) {
-        const Float8 x = Float8::load(&vertices.x[j]), y = Float8::load(&vertices.y[j]),
-                     z = Float8::load(&vertices.z[j]);
-        Float8 near;
-        for (const Vec3f &q : points) {
-            const Float8 dx = x - Float8(q.x), dy = y - Float8(q.y), dz = z - Float8(q.z);
-            const Float8 d2 = dx * dx + dy * dy + dz * dz, d = sqrt(d2);
-            Float8 value = exp(sigma * d) / (d2 + soften);
-            if (!even) {
-                const Float8 along = Float8::load(&vertices.dx[j]) * dx + Float8::load(&vertices.dy[j]) * dy +
-                                     Float8::load(&vertices.dz[j]) * dz;
-                value = value * phase(Float8() - along / max(d, Float8(1e-30f)));
-            }
-            near = near + value;
-        }
-        near.store(&targets[j]);
-    }
-    for (; j < n; ++j) // the last few are drawn by number alone
-        targets[j] = 0;
-    for (j = 0; j < n; ++j) {
+    std::vector<float> targets(n), powers(n);
+    std::vector<SeenPoint> seen;
+    seen.reserve(points.size());
+    for (const Vec3f &q : points)
+        seen.push_back({q.x, q.y, q.z, 0, 0, 0});
+    // The last few are drawn by number alone.
+    loops().weigh(for_loops(*scene_.medium), columns(vertices, 0), n - n % kLoopLanes, seen.data(), seen.size(),
+                  kSoften * settings_.fog_bound, targets.data());
+    for (size_t j = 0; j < n; ++j) {
         powers[j] = mean_component(vertices.power(j));
         targets[j] *= powers[j];
     }
-    targets.resize(n);
     const uint32_t count = settings_.sub_pools * settings_.fog_picks;
     std::vector<uint32_t> chosen(count);
     std::vector<float> scale(count, 0.0f);
@@ -158,44 +158,20 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
     const bool even = !fog_.directed;
     const uint32_t sub_pool =
         std::min(uint32_t(sampler.next_1d() * float(settings_.sub_pools)), settings_.sub_pools - 1);
-    alignas(32) std::array<float, kMostPicks> fog_parts;
+    alignas(64) std::array<float, kMostPicks> fog_parts;
     std::array<float, kMostPicks> surface_parts;
     std::array<Rgb, kMostPicks> surface_values;
     Rgb total;
     float parts = 0;
 
     const size_t fog_count = fog_.size() ? settings_.fog_picks : 0, fog_first = size_t(sub_pool) * settings_.fog_picks;
+    ConnectionSums fog_sums{};
     if (fog_count) {
-        const Float8 px(x.x), py(x.y), pz(x.z), bound(settings_.fog_bound * settings_.fog_bound);
-        const Float8 sr(-medium.sigma_t.r), sg(-medium.sigma_t.g), sb(-medium.sigma_t.b);
-        const Float8 third(1 / 3.0f);
-        const Float8 sx(seen.x), sy(seen.y), sz(seen.z);
-        const Phase8 phases(medium.g);
-        Float8 red, green, blue, part_sum;
-        for (size_t k = 0; k < fog_count; k += 8) {
-            const size_t j = fog_first + k;
-            const Float8 dx = Float8::load(&fog_.x[j]) - px, dy = Float8::load(&fog_.y[j]) - py,
-                         dz = Float8::load(&fog_.z[j]) - pz;
-            const Float8 d2 = dx * dx + dy * dy + dz * dz, d = sqrt(d2);
-            Float8 inverse = Float8(kIsotropicPhase * kIsotropicPhase) / (d2 + bound);
-            if (!even) {
-                const Float8 to_vertex = Float8(1.0f) / max(d, Float8(1e-30f));
-                const Float8 here = (dx * sx + dy * sy + dz * sz) * to_vertex;
-                const Float8 there =
-                    (dx * Float8::load(&fog_.dx[j]) + dy * Float8::load(&fog_.dy[j]) + dz * Float8::load(&fog_.dz[j])) *
-                    to_vertex;
-                inverse = phases(here) * phases(Float8() - there) / (d2 + bound);
-            }
-            const Float8 er = exp(sr * d) * inverse;
-            const Float8 r = er * Float8::load(&fog_.r[j]);
-            const Float8 g = (medium.grey ? er : exp(sg * d) * inverse) * Float8::load(&fog_.g[j]);
-            const Float8 b = (medium.grey ? er : exp(sb * d) * inverse) * Float8::load(&fog_.b[j]);
-            const Float8 part = (r + g + b) * third; // mean_component
-            part.store(&fog_parts[k]);
-            red = red + r, green = green + g, blue = blue + b, part_sum = part_sum + part;
-        }
-        total = Rgb(sum(red), sum(green), sum(blue));
-        parts = sum(part_sum);
+        const SeenPoint point{x.x, x.y, x.z, seen.x, seen.y, seen.z};
+        fog_sums = loops().connect(for_loops(medium), columns(fog_, fog_first), fog_count, point, settings_.fog_bound,
+                                   fog_parts.data());
+        total = Rgb(fog_sums.r, fog_sums.g, fog_sums.b);
+        parts = fog_sums.part;
     }
     const size_t surface_count = surface_.empty() ? 0 : settings_.surface_picks;
     const SurfaceVertex *surface = surface_.data() + size_t(sub_pool) * settings_.surface_picks;
@@ -230,17 +206,9 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
         }
         left -= surface_parts[k];
     }
-    size_t k = 0, last = 0;
-    for (; k < fog_count; ++k) {
-        if (fog_parts[k] > 0)
-            last = k;
-        if (fog_parts[k] > 0 && left < fog_parts[k])
-            break;
-        left -= fog_parts[k];
-    }
     if (fog_count == 0)
         return total;
-    k = std::min(k, last); // rounding may let the number outlast the sum
+    const size_t k = pick_fog_part(fog_parts.data(), fog_count, fog_sums, left);
     const size_t j = fog_first + k;
     const Vec3f way = fog_.position(j) - x;
     const float d = length(way);

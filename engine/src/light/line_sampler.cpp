@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "light/line_sampler.h"
 
-#include "math/simd.h"
+#include "simd/loops.h"
 
 #include <cmath>
 
@@ -47,48 +47,20 @@ LineSampler::LineSampler(const Homogeneous &medium, const Vec3f &origin, const V
     x_first_ = to_x(0);
     x_step_ = (to_x(double(t_cut_)) - x_first_) / (kNodes - 1);
 
-    std::array<double, kNodes> t, ds_dx;
-    for (int i = 0; i < kNodes; ++i) {
-        const double x = x_first_ + x_step_ * i, one_minus_x2 = (1 - x) * (1 + x);
-        t[size_t(i)] = t_foot_ + h_ * 2 * x / one_minus_x2;
-        ds_dx[size_t(i)] = 2 * h_ * (1 + x * x) / (one_minus_x2 * one_minus_x2);
-    }
-    t[0] = 0;
-    t[kNodes - 1] = cut;
-    const bool isotropic = medium.g == 0;
-    std::array<float, kNodes> beyond, source; // the way past the shortest; what the light brings there
-    for (size_t i = 0; i < kNodes; ++i) {
-        const double s = t[i] - t_foot_, d2 = h2 + s * s;
-        const double d = std::sqrt(std::max(d2, r * r));
-        // 2 (1 - cos) of the cone about a sphere, without its cancellation; 1/d^2 for a point.
-        const double sin2 = r * r / std::max(d2, r * r);
-        const double solid =
-            r > 0 ? 2 * sin2 / (1 + std::sqrt(1 - std::min(sin2, 1.0))) / (r * r) : 1 / std::max(d2, h_ * h_);
-        const float way = float(std::max(t[i], 0.0) + d - r);
-        // Relative to the shortest way, so that the density does not underflow where the picture is all but black.
-        beyond[i] = std::max(way - float(distance - r), 0.0f);
-        source[i] = float(solid);
-        if (!isotropic)
-            source[i] *= HenyeyGreenstein{medium.g}.eval(float(-s / std::sqrt(std::max(d2, 1e-30))));
-    }
-    for (size_t i = 0; i < kNodes; i += 8) {
-        const Float8 way = Float8::load(&beyond[i]);
-        Float8 transmittance = exp(Float8(-medium.sigma_t.r) * way);
-        if (!medium.grey)
-            transmittance =
-                (transmittance + exp(Float8(-medium.sigma_t.g) * way) + exp(Float8(-medium.sigma_t.b) * way)) *
-                Float8(1 / 3.0f);
-        (Float8::load(&source[i]) * transmittance).store(&source[i]);
-    }
-    for (size_t i = 0; i < kNodes; ++i)
-        density_[i] = std::max(source[i] * float(ds_dx[i]), 1e-36f);
+    const LoopMedium m{medium.sigma_t.r, medium.sigma_t.g, medium.sigma_t.b, medium.g, medium.grey};
+    const LineShape shape{t_foot_, h_, h2, r, distance, cut, x_first_, x_step_};
+    const float last = loops().line_nodes(m, shape, density_.data());
+    per_step_ = 1 / x_step_;
+    std::array<float, kNodes> area;
+    for (size_t i = 1; i < kNodes; ++i)
+        area[i] = (density_[i - 1] + density_[i]) * float(0.5 * x_step_);
     cumulative_[0] = 0;
     for (size_t i = 1; i < kNodes; ++i)
-        cumulative_[i] = cumulative_[i - 1] + 0.5f * (density_[i - 1] + density_[i]) * float(x_step_);
+        cumulative_[i] = cumulative_[i - 1] + area[i];
     total_ = cumulative_[kNodes - 1];
     if (t_end_ > t_cut_ && sigma_tail > 0) {
         tail_rate_ = float(sigma_tail);
-        tail_ = std::max(source[kNodes - 1], 1e-30f) / tail_rate_ * -std::expm1(-tail_rate_ * (t_end_ - t_cut_));
+        tail_ = std::max(last, 1e-30f) / (tail_rate_ * float(h_)) * -std::expm1(-tail_rate_ * (t_end_ - t_cut_));
         total_ += tail_;
     }
 }
@@ -102,11 +74,11 @@ LineSample LineSampler::sample(float u) const {
         return {t, pdf(t)};
     }
     size_t i = 0;
-    while (i < kNodes - 2 && target >= cumulative_[i + 1])
-        ++i;
+    for (size_t k = 1; k < kNodes - 1; ++k)
+        i += target >= cumulative_[k] ? 1 : 0;
     // Invert the quadratic a f + (b - a) f^2 / 2 = m in the stable form.
     const float a = density_[i], b = density_[i + 1];
-    const float m = std::max(target - cumulative_[i], 0.0f) / float(x_step_);
+    const float m = std::max(target - cumulative_[i], 0.0f) * float(per_step_);
     const float f = std::clamp(2 * m / (a + std::sqrt(std::max(a * a + 2 * (b - a) * m, 0.0f))), 0.0f, 1.0f);
     const double x = x_first_ + x_step_ * (double(i) + double(f));
     const double one_minus_x2 = (1 - x) * (1 + x);
@@ -119,13 +91,12 @@ float LineSampler::pdf(float t) const {
         const float range = -std::expm1(-tail_rate_ * (t_end_ - t_cut_));
         return tail_ / total_ * tail_rate_ * std::exp(-tail_rate_ * (t - t_cut_)) / range;
     }
-    const double s = double(t) - t_foot_;
-    const double x = s / (h_ + std::sqrt(h_ * h_ + s * s));
-    const double one_minus_x2 = (1 - x) * (1 + x);
-    const double dx_ds = one_minus_x2 * one_minus_x2 / (2 * h_ * (1 + x * x));
-    const double position = std::clamp((x - x_first_) / x_step_, 0.0, double(kNodes - 1));
+    const double s = double(t) - t_foot_, d2 = h_ * h_ + s * s;
+    const double x = s / (h_ + std::sqrt(d2));
+    const double position = std::clamp((x - x_first_) * per_step_, 0.0, double(kNodes - 1));
     const size_t i = std::min(size_t(position), size_t(kNodes - 2));
     const float f = float(position - double(i));
+    const double dx_ds = (1 + x * x) * h_ / (2 * d2);
     return (density_[i] + (density_[i + 1] - density_[i]) * f) * float(dx_ds) / total_;
 }
 

@@ -6,6 +6,7 @@
 #include "math/vec.h"
 #include "medium/homogeneous.h"
 #include "medium/phase.h"
+#include "simd/loops.h"
 
 #include <array>
 #include <optional>
@@ -36,9 +37,9 @@ class LineSampler {
     float pdf(float t) const;
 
   private:
-    static constexpr int kNodes = 16;
+    static constexpr int kNodes = int(kLineNodes);
     double t_foot_, h_;                    // of the light on the line; softened distance to it
-    double x_first_, x_step_;              // nodes in x
+    double x_first_, x_step_, per_step_;   // nodes in x; 1 / x_step_
     std::array<float, kNodes> density_;    // per x, up to the common factor
     std::array<float, kNodes> cumulative_; // integral up to each node
     float total_ = 0;                      // with the tail

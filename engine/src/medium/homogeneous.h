@@ -2,10 +2,10 @@
 // A medium of constant coefficients: transmittance, and the sampling of distances.
 #pragma once
 
-#include "math/simd.h"
 #include "math/vec.h"
 #include "sampling/exponential.h"
 #include "sampling/sampler.h"
+#include "simd/float8.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Eight floats at a time (AVX2, which x86-64-v3 promises), for the inner loops over light vertices and nodes of tables.
+// Eight floats at a time (AVX2, which x86-64-v3 promises), and e^x of as many lanes as there are.
 #pragma once
 
 #include "math/vec.h"
@@ -33,30 +33,34 @@ inline Float8 min(Float8 a, Float8 b) {
     return _mm256_min_ps(a.v, b.v);
 }
 
-/// Sum of the lanes, in one fixed order.
-inline float sum(Float8 a) {
-    alignas(32) float x[8];
-    _mm256_store_ps(x, a.v);
-    return ((x[0] + x[4]) + (x[1] + x[5])) + ((x[2] + x[6]) + (x[3] + x[7]));
+/// 2^n of lanes that hold whole numbers from -126 to 127.
+inline Float8 power_of_two(Float8 n) {
+    return _mm256_castsi256_ps(
+        _mm256_slli_epi32(_mm256_add_epi32(_mm256_cvtps_epi32(n.v), _mm256_set1_epi32(127)), 23));
+}
+inline Float8 round(Float8 a) {
+    return _mm256_round_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+/// value, and 0 in the lanes where x < limit.
+inline Float8 zero_where_below(Float8 x, Float8 limit, Float8 value) {
+    return _mm256_andnot_ps(_mm256_cmp_ps(x.v, limit.v, _CMP_LT_OQ), value.v);
 }
 
 /// e^x to 3e-7 relative, 0 below -87: 2^n times a polynomial on [-ln 2 / 2, ln 2 / 2] (Cephes expf).
-inline Float8 exp(Float8 x) {
-    const __m256 clamped = _mm256_max_ps(_mm256_min_ps(x.v, _mm256_set1_ps(88.0f)), _mm256_set1_ps(-87.3f));
-    const __m256 n = _mm256_round_ps(_mm256_mul_ps(clamped, _mm256_set1_ps(1.44269504088896341f)),
-                                     _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+template <class Float>
+inline Float exp(Float x) {
+    const Float least(-87.3f), clamped = max(min(x, Float(88.0f)), least);
+    const Float n = round(clamped * Float(1.44269504088896341f));
     // ln 2 in two parts, so that the subtraction is exact.
-    const Float8 r = Float8(clamped) - Float8(n) * Float8(0.693359375f) - Float8(n) * Float8(-2.12194440e-4f);
-    Float8 p(1.9875691500e-4f);
-    p = p * r + Float8(1.3981999507e-3f);
-    p = p * r + Float8(8.3334519073e-3f);
-    p = p * r + Float8(4.1665795894e-2f);
-    p = p * r + Float8(1.6666665459e-1f);
-    p = p * r + Float8(5.0000001201e-1f);
-    p = p * r * r + r + Float8(1.0f);
-    const __m256i bits = _mm256_slli_epi32(_mm256_add_epi32(_mm256_cvtps_epi32(n), _mm256_set1_epi32(127)), 23);
-    const __m256 value = _mm256_mul_ps(p.v, _mm256_castsi256_ps(bits));
-    return _mm256_andnot_ps(_mm256_cmp_ps(x.v, _mm256_set1_ps(-87.3f), _CMP_LT_OQ), value);
+    const Float r = clamped - n * Float(0.693359375f) - n * Float(-2.12194440e-4f);
+    Float p(1.9875691500e-4f);
+    p = p * r + Float(1.3981999507e-3f);
+    p = p * r + Float(8.3334519073e-3f);
+    p = p * r + Float(4.1665795894e-2f);
+    p = p * r + Float(1.6666665459e-1f);
+    p = p * r + Float(5.0000001201e-1f);
+    p = p * r * r + r + Float(1.0f);
+    return zero_where_below(x, least, p * power_of_two(n));
 }
 
 /// e^(-depth) of three channels at once. Depths may be infinite, of either sign.
