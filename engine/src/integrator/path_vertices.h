@@ -43,8 +43,9 @@ bool PathSample<F>::gather(State &state, float scale, float t) {
     state.surface_reach = k * pool_->settings.surface_bound;
     const Vec3f seen = state.ray.direction;
     state.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(seen, sampler_.next_2d()).direction};
-    const float splatted = t > 0 ? splat_share(t, seen, state.ray.direction, pool_->settings) : 0;
-    state.splatted = splatted > 0 && sampler_.next_1d() < splatted;
+    const float splat = t > 0 ? sampler_.next_1d() : 1;
+    if constexpr (F.surfaces) // nothing else sends beams
+        state.splatted = t > 0 && splat < splat_share(t, seen, state.ray.direction, pool_->settings);
     state.origin = {};
     ++state.depth;
     ++state.scatter;

@@ -15,7 +15,6 @@ namespace {
 // spend them far away, where the weight window leaves few and heavy vertices.)
 constexpr float kGuided = 0.7f;
 constexpr float kSoften = 3; // targets see bounds this much larger, for points that the representatives are not
-constexpr uint32_t kMostPicks = 512;
 
 LoopMedium for_loops(const Homogeneous &m) {
     return {m.sigma_t.r, m.sigma_t.g, m.sigma_t.b, m.g, m.grey};
@@ -158,9 +157,9 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
     const bool even = !fog_.directed;
     const uint32_t sub_pool =
         std::min(uint32_t(sampler.next_1d() * float(settings_.sub_pools)), settings_.sub_pools - 1);
-    alignas(64) std::array<float, kMostPicks> fog_parts;
-    std::array<float, kMostPicks> surface_parts;
-    std::array<Rgb, kMostPicks> surface_values;
+    alignas(64) std::array<float, PoolSettings::fog_picks> fog_parts;
+    std::array<float, PoolSettings::surface_picks> surface_parts;
+    std::array<Rgb, PoolSettings::surface_picks> surface_values;
     Rgb total;
     float parts = 0;
 
