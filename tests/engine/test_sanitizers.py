@@ -39,6 +39,7 @@ def some_scenes(folder: Path) -> dict[str, Scene]:
         "no fog": {key: value for key, value in every.items() if key != "medium"},
         "furnace": furnace(),
         "moon": hazy_moon(),
+        "fog alone": {**hazy_moon(), "objects": []},
     }
 
 
@@ -148,7 +149,7 @@ def test_command(sanitized: Callable[[str], None], tmp_path: Path) -> None:
     """Every key of the format, every output and a merge; and errors at every stage."""
     sanitized("fuzz")
     scenes = some_scenes(tmp_path)
-    render_all({"shared light vertices": scenes["shared light vertices"]}, tmp_path, ("path",))
+    render_all({name: scenes[name] for name in ("shared light vertices", "fog alone")}, tmp_path, ("path",))
     path = write_scene(tmp_path, scenes["every key"])
     pictures = [tmp_path / f"{i}.exr" for i in range(2)]
     for seed, picture in enumerate(pictures):

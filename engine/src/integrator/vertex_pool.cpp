@@ -173,7 +173,7 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
         parts = fog_sums.part;
     }
     const size_t surface_count = surface_.empty() ? 0 : settings_.surface_picks;
-    const SurfaceVertex *surface = surface_.data() + size_t(sub_pool) * settings_.surface_picks;
+    const SurfaceVertex *surface = surface_count ? &surface_[size_t(sub_pool) * settings_.surface_picks] : nullptr;
     for (size_t k = 0; k < surface_count; ++k) {
         const SurfaceVertex &v = surface[k];
         const Vec3f to_point = x - v.position;
