@@ -78,7 +78,8 @@ def write_seeds(name: str, seeds: Path, folder: Path, corpus: Path) -> None:
                 (seeds / file.name).write_bytes(file.read_bytes())
 
 
-def start_fuzzer(name: str, folder: Path, repository: Path, runs: int) -> "subprocess.Popen[str]":
+def start_fuzzer(name: str, folder: Path, repository: Path, runs: int) -> "subprocess.Popen[bytes]":
+    """Writes what it says to the folder's file `said`: a pipe that nobody reads yet would stop it."""
     files = folder / "files"
     files.mkdir(parents=True)
     corpus = repository / "tests" / "engine" / "fuzz"
@@ -89,16 +90,16 @@ def start_fuzzer(name: str, folder: Path, repository: Path, runs: int) -> "subpr
         *(f"-artifact_prefix={folder}/", "-print_final_stats=1", f"-dict={corpus / 'scene.dict'}"),
     ]
     environment = {**os.environ, **ENVIRONMENT, "GLIMMER_FUZZ_FOLDER": os.fspath(files)}
-    return subprocess.Popen(
-        list(map(str, command)), env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
+    with (folder / "said").open("wb") as said:
+        return subprocess.Popen(list(map(str, command)), env=environment, stdout=said, stderr=subprocess.STDOUT)
 
 
 def fuzz(folder: Path, repository: Path, longer: int = 1) -> None:
     """All fuzzers at once; each must have gone beyond what it started from, and found nothing."""
     processes = {name: start_fuzzer(name, folder / name, repository, runs * longer) for name, runs in FUZZERS.items()}
     for name, process in processes.items():
-        said = process.communicate(timeout=200 * (1 + longer))[0]
+        process.wait(timeout=200 * (1 + longer))
+        said = (folder / name / "said").read_text(errors="replace")
         found = [line for line in said.splitlines() if "ERROR" in line or "SUMMARY" in line or line.startswith("fuzz:")]
         assert process.returncode == 0, f"fuzz_{name}: {found}\n{said[-6000:]}"
         new = [line for line in said.splitlines() if line.startswith("stat::new_units_added:")]
