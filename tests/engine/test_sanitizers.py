@@ -79,7 +79,8 @@ def write_seeds(name: str, seeds: Path, folder: Path, corpus: Path) -> None:
 
 
 def start_fuzzer(name: str, folder: Path, repository: Path, limit: str) -> "subprocess.Popen[bytes]":
-    """limit: libFuzzer's option that ends it. Writes what it says to the folder's file `said`: a pipe that nobody reads yet would stop it."""
+    """limit: libFuzzer's option that ends it. What it says goes to the folder's file `said`: a pipe that nobody reads
+    yet would stop it."""
     files = folder / "files"
     files.mkdir(parents=True)
     corpus = repository / "tests" / "engine" / "fuzz"
