@@ -24,10 +24,10 @@ MOONS, FIELD, HAZY_FIELD, FULL = (
 )
 LEFT_OUT = {
     "fog": "no fog: no distance sampling, no transmittance",
-    "surfaces": "nothing but spheres that shine: no scattering at surfaces, no light met by chance",
+    "surfaces": "no surface that scatters: no scattering at surfaces",
     "glass": "no glass: no search for the bodies around the camera",
     "BVH": "a few spheres alone: no BVH",
-    "lights": "spheres are the only lights: no lamps, shining meshes, suns or sky",
+    "lights": "no lights but spheres that shine: no lamps, shining meshes, suns or sky",
 }
 VIEW = camera((0, -6, 3), (0, 4, 1), 60)
 LENS = d.Camera(VIEW.to_world, VIEW.fov_x, lens_radius=0.05, focus_distance=9)

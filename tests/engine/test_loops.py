@@ -37,7 +37,7 @@ def points(seed: int, count: int) -> Array:
     return np.concatenate([rng.normal(size=(count, 3)), unit(rng.normal(size=(count, 3)))], 1).astype(np.float32)
 
 
-def phase(g: float, cosine: Array) -> Array:
+def phase(g: float | np.longdouble, cosine: Array) -> Array:
     return np.asarray((1 - g * g) / (4 * np.pi * (1 + g * g - 2 * g * cosine) ** 1.5))
 
 
@@ -83,6 +83,8 @@ LINES: dict[str, tuple[tuple[float, float, float, float], tuple[float, float, fl
     "a far point": ((1e-5, 1e-5, 1e-5, 0.0), (1e5, 10, 0, 2e5)),
     "within a light": ((0.5, 0.5, 0.5, 0.0), (0.3, 0.2, 4, 9)),
     "above a world": ((0.1, 0.1, 0.1, 0.0), (1.7 + 1e7, 100, 1e7, 3)),
+    "a narrow peak": ((0.1, 0.1, 0.1, 0.9999), (20, 1e-3, 1e-4, 30)),
+    "a narrow peak behind": ((0.1, 0.1, 0.1, -0.9999), (20, 1e-3, 1e-4, 30)),
     "tiny": ((1e6, 1e6, 1e6, 0.0), (1e-6, 3e-7, 1e-7, 5e-6)),
     "huge": ((1e-9, 1e-9, 1e-9, 0.0), (1e9, 3e8, 1e8, 5e9)),
 }
@@ -113,7 +115,7 @@ def test_line_nodes(name: str, wide: bool) -> None:
     beyond = np.maximum(np.maximum(s + t_foot, 0) + np.sqrt(d2) - distance, 0)
     source *= np.mean([np.exp(-np.longdouble(c) * beyond) for c in sigma], axis=0)
     if g:
-        source *= phase(float(g), double(-s / np.sqrt(h2 + s * s)))
+        source *= phase(np.longdouble(np.float32(g)), -s / np.sqrt(h2 + s * s))
     values = source * (1 + x * x) / ((1 - x) * (1 + x)) ** 2
     # Of the way beyond the shortest, float32 keeps 2^-24 of the way itself; of the cone's cosine half of the digits
     # where it is 0, close to the surface.
@@ -162,6 +164,36 @@ def test_distances_follow_their_density(name: str) -> None:
     nodes, weights = np.polynomial.legendre.leggauss(8)
     at = edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2
     pdf = double(probe.line_pdf(sigma, medium[3], segment, light, at.ravel())).reshape(at.shape)
+    assert (pdf > 0).all()
     family.chi_squared(
         np.histogram(samples.t, edges)[0], (pdf * weights).sum(1) * np.diff(edges) / 2 * N, f"line, {name}"
     )
+
+
+INF = float("inf")
+TAILS = {
+    "long": ((0.09, 0.09, 0.09), (-10, 3, 1, 400)),
+    "endless": ((0.09, 0.09, 0.09), (-10, 3, 1, INF)),
+    "short": ((0.09, 0.09, 0.09), (-10, 3, 1, 46)),
+    "one channel does not scatter": ((0, 0.02, 0.09), (20, 5, 2, INF)),
+}
+
+
+@pytest.mark.parametrize("name", TAILS)
+def test_the_tail(name: str) -> None:
+    """Between the distances of u = 1 - 2^-k the density has 2^-(k + 1), as far as float32 can tell u: beyond nine mean
+    free paths, where the table ends, too."""
+    sigma_s, (t_foot, nearest, radius, end) = TAILS[name]
+    line = (((0.01, 0.01, 0.01), sigma_s), 0, (0, 0, 0, 1, 0, 0, end), (t_foot, nearest, 0, radius))
+    u = 1 - 2.0 ** -np.arange(1, 19)
+    t = double(probe.line(*line, u).t)
+    assert (np.diff(t) > 0).all()
+    at = t[:-1, None] + np.diff(t)[:, None] * (np.arange(10_000) + 0.5) / 10_000  # the table has kinks at its nodes
+    mass = double(probe.line_pdf(*line, at.ravel())).reshape(at.shape).mean(1) * np.diff(t)
+    density = double(probe.line_pdf(*line, t))
+    resolved = 8 * ROUNDING + (density * t)[1:] * ROUNDING + (density * t)[:-1] * ROUNDING  # u and t are float32
+    assert (np.abs(mass - np.diff(u)) < resolved).all(), mass / np.diff(u)
+    if end == INF:
+        distance, slowest = np.hypot(t_foot, nearest), 0.01 + min(s for s in sigma_s if s > 0)
+        way = distance + 9 / slowest
+        assert t[-1] > (way**2 - distance**2) / (2 * (way - t_foot)), "no sample beyond the table"

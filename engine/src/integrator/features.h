@@ -36,11 +36,11 @@ struct FeatureText {
 inline constexpr std::array<FeatureText, 7> kFeatureTexts{{
     {&Features::fog, "fog", "no fog: no distance sampling, no transmittance"},
     {&Features::fog_walks, "walks in fog", ""},
-    {&Features::surfaces, "surfaces",
-     "nothing but spheres that shine: no scattering at surfaces, no light met by chance"},
+    {&Features::surfaces, "surfaces", "no surface that scatters: no scattering at surfaces"},
     {&Features::glass, "glass", "no glass: no search for the bodies around the camera"},
     {&Features::bvh, "BVH", "a few spheres alone: no BVH"},
-    {&Features::other_lights, "other lights", "spheres are the only lights: no lamps, shining meshes, suns or sky"},
+    {&Features::other_lights, "other lights",
+     "no lights but spheres that shine: no lamps, shining meshes, suns or sky"},
     {&Features::switches, "switches", ""},
 }};
 inline constexpr Features kEverything{true, true, true, true, true, true, true};

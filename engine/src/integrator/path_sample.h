@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The work on one camera sample of the path integrator. Its steps stand in a file each: path_segment.cpp (one segment,
-// and light met by chance), path_fog.cpp, path_surface.cpp, path_vertices.cpp (light vertices shared by all pixels).
+// The work on one camera sample of the path integrator. Its steps stand in a file each: path_segment.h (one segment,
+// and light met by chance), path_fog.h, path_surface.h, path_vertices.h (light vertices shared by all pixels).
 #pragma once
 
 #include "integrator/path_kernels.h"

@@ -208,6 +208,8 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
     if (fog_count == 0)
         return total;
     const size_t k = pick_fog_part(fog_parts.data(), fog_count, fog_sums, left);
+    if (!(fog_parts[k] > 0)) // rounding let the number outlast the surface's parts, and the fog has none
+        return total;
     const size_t j = fog_first + k;
     const Vec3f way = fog_.position(j) - x;
     const float d = length(way);

@@ -24,6 +24,18 @@ class Phases {
     Float16 constant_, slope_, scale_;
 };
 
+/// The same where light from a point flies to s on a line and is scattered back along it, from how far 1 - cos is from
+/// 0 at the peak: exact where 1 - cos would cancel, which decides at |g| > 0.99. nearest2: of the point to the line.
+inline Float16 phase_towards_line(float g, Float16 s, Float16 nearest2) {
+    const float h = g < 0 ? -g : g, narrow = 1 - h;
+    const Float16 zero, away = g < 0 ? zero - s : s, d = sqrt(max(nearest2 + s * s, Float16(1e-30f)));
+    const Float16 far = d + max(away, zero - away); // d + |s|
+    const Float16 tail =
+        (zero_where_below(away, zero, far) + zero_where_below(zero - away, Float16(1e-37f), nearest2 / far)) / d;
+    const Float16 d2 = Float16(narrow * narrow) + Float16(2 * h) * tail;
+    return Float16(narrow * (1 + h) * kEvenPhase) / (d2 * sqrt(d2));
+}
+
 struct Differences {
     Float16 x, y, z;
 };
@@ -119,7 +131,7 @@ float line_nodes(const LoopMedium &medium, const LineShape &shape, float *densit
     const Float16 sine2 = min(Float16(radius2) / d2, Float16(1.0f));
     Float16 source = Float16(2.0f) / (d2 * (Float16(1.0f) + sqrt(Float16(1.0f) - sine2)));
     if (medium.g != 0)
-        source = source * Phases(medium.g)(Float16() - s / sqrt(max(squared_distance, Float16(1e-30f))));
+        source = source * phase_towards_line(medium.g, s, Float16(nearest2));
     // The way by way of t, past the shortest: t + d - distance, where d^2 - distance^2 = t (t - 2 t_foot). Only so much
     // of it decides: the density does not underflow where the picture is all but black.
     const Float16 longer = max(t * Float16::load(mirrored), Float16(clipped)) / (d + Float16(start));
