@@ -4,6 +4,8 @@
 
 #include "scene/description.h"
 
+#include <cmath>
+
 namespace glimmer {
 
 /// A camera and a film as a caller of the C API gets them, and nothing else.
@@ -12,6 +14,21 @@ inline SceneDescription empty_scene() {
     glimmer_camera_init(&scene.camera.emplace());
     glimmer_film_init(&scene.film.emplace());
     return scene;
+}
+
+/// One more sphere that shines, of a colour of its own. hue: an angle.
+inline void add_moon(SceneDescription &scene, float hue, const Vec3d &center, double radius) {
+    MaterialDescription light;
+    glimmer_material_init(&light);
+    light.type = GLIMMER_LIGHT;
+    for (size_t c = 0; c < 3; ++c)
+        light.color[c] = 20 + 10 * std::cos(hue + 2 * float(c));
+    SpheresDescription sphere;
+    sphere.centers = {center};
+    sphere.radii = {radius};
+    sphere.material = uint32_t(scene.materials.size());
+    scene.materials.push_back(light);
+    scene.spheres.push_back(sphere);
 }
 
 } // namespace glimmer

@@ -33,19 +33,8 @@ SceneDescription moonlit_plates(bool fog) {
         metal.eta[c] = 2.6f - 0.2f * float(c);
         metal.k[c] = 3.3f - 0.2f * float(c);
     }
-    for (uint32_t i = 0; i < 3; ++i) {
-        MaterialDescription light;
-        glimmer_material_init(&light);
-        light.type = GLIMMER_LIGHT;
-        for (size_t c = 0; c < 3; ++c)
-            light.color[c] = 20 + 10 * std::cos(2.1f * float(i) + 2 * float(c));
-        scene.materials.push_back(light);
-        SpheresDescription sphere;
-        sphere.centers = {{-20.0 + 20 * i, 40, 12.0 + i}};
-        sphere.radii = {2};
-        sphere.material = i + 1;
-        scene.spheres.push_back(sphere);
-    }
+    for (uint32_t i = 0; i < 3; ++i)
+        add_moon(scene, 2.1f * float(i), {-20.0 + 20 * i, 40, 12.0 + i}, 2);
     if (fog)
         scene.medium = MediumDescription{{0.001, 0.001, 0.001}, {0.005, 0.0055, 0.0065}, 0};
     const double down = 0.1,

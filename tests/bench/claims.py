@@ -84,7 +84,7 @@ def main(argv: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="build.py claims", description=__doc__)
     parser.add_argument("--glimmer", type=Path, required=True)
     parser.add_argument("--blender", type=Path, required=True)
-    parser.add_argument("--seeds", type=int, default=64)
+    parser.add_argument("--seeds", type=int, required=True)
     given = parser.parse_args(argv)
     if given.seeds < 2:
         parser.error(f"--seeds {given.seeds}: at least 2, since each render is compared with the mean of the others")

@@ -9,6 +9,7 @@ import pytest
 from tests.engine import probe
 from tests.engine.probe import Array
 from tests.engine.significance import ROUNDING, Family, double
+from tests.render.closed_forms import henyey_greenstein as phase
 
 SETS = [pytest.param(False, id="AVX2")]
 SETS.append(
@@ -35,10 +36,6 @@ def vertices(seed: int, directed: bool) -> Array:
 def points(seed: int, count: int) -> Array:
     rng = np.random.default_rng(seed)
     return np.concatenate([rng.normal(size=(count, 3)), unit(rng.normal(size=(count, 3)))], 1).astype(np.float32)
-
-
-def phase(g: float | np.longdouble, cosine: Array) -> Array:
-    return np.asarray((1 - g * g) / (4 * np.pi * (1 + g * g - 2 * g * cosine) ** 1.5))
 
 
 @pytest.mark.parametrize("wide", SETS)
@@ -115,7 +112,7 @@ def test_line_nodes(name: str, wide: bool) -> None:
     beyond = np.maximum(np.maximum(s + t_foot, 0) + np.sqrt(d2) - distance, 0)
     source *= np.mean([np.exp(-np.longdouble(c) * beyond) for c in sigma], axis=0)
     if g:
-        source *= phase(np.longdouble(np.float32(g)), -s / np.sqrt(h2 + s * s))
+        source *= phase(float(np.float32(g)), -s / np.sqrt(h2 + s * s))
     values = source * (1 + x * x) / ((1 - x) * (1 + x)) ** 2
     # Of the way beyond the shortest, float32 keeps 2^-24 of the way itself; of the cone's cosine half of the digits
     # where it is 0, close to the surface.

@@ -16,10 +16,6 @@ namespace {
 constexpr float kGuided = 0.7f;
 constexpr float kSoften = 3; // targets see bounds this much larger, for points that the representatives are not
 
-LoopMedium for_loops(const Homogeneous &m) {
-    return {m.sigma_t.r, m.sigma_t.g, m.sigma_t.b, m.g, m.grey};
-}
-
 FogColumns columns(const FogVertices &v, size_t first) {
     const auto from = [&](const std::vector<float> &column) { return column.data() + first; };
     if (!v.directed)

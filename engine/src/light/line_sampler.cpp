@@ -47,9 +47,8 @@ LineSampler::LineSampler(const Homogeneous &medium, const Vec3f &origin, const V
     x_first_ = to_x(0);
     x_step_ = (to_x(double(t_cut_)) - x_first_) / (kNodes - 1);
 
-    const LoopMedium m{medium.sigma_t.r, medium.sigma_t.g, medium.sigma_t.b, medium.g, medium.grey};
     const LineShape shape{t_foot_, h_, h2, r, distance, cut, x_first_, x_step_};
-    const float last = loops().line_nodes(m, shape, density_.data());
+    const float last = loops().line_nodes(for_loops(medium), shape, density_.data());
     per_step_ = 1 / x_step_;
     std::array<float, kNodes> area;
     for (size_t i = 1; i < kNodes; ++i)

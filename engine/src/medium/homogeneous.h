@@ -6,6 +6,7 @@
 #include "sampling/exponential.h"
 #include "sampling/sampler.h"
 #include "simd/float8.h"
+#include "simd/loops.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,10 @@ struct Homogeneous {
         return exp_minus({optical_depth(sigma_t.r, t), optical_depth(sigma_t.g, t), optical_depth(sigma_t.b, t)});
     }
 };
+
+inline LoopMedium for_loops(const Homogeneous &m) {
+    return {m.sigma_t.r, m.sigma_t.g, m.sigma_t.b, m.g, m.grey};
+}
 
 /// sqrt(3 (1 - albedo)) sigma_t of the channel that carries light furthest: how fast light scattered many times dies
 /// away, per length. 0 where nothing scatters.

@@ -4,13 +4,12 @@
 #pragma once
 
 #include "simd/float8.h"
+#include "simd/loops.h"
 
 #include <cstddef>
 
 namespace glimmer {
 namespace {
-
-constexpr size_t kLanes = 16;
 
 #ifdef __AVX512F__
 
@@ -70,9 +69,9 @@ struct Float16 {
 
 /// Sum of the lanes, in one fixed order.
 inline float sum(Float16 a) {
-    float x[kLanes];
+    float x[kLoopLanes];
     a.store(x);
-    for (size_t half = kLanes / 2; half > 0; half /= 2)
+    for (size_t half = kLoopLanes / 2; half > 0; half /= 2)
         for (size_t i = 0; i < half; ++i)
             x[i] = x[i] + x[i + half];
     return x[0];

@@ -7,7 +7,7 @@
 
 namespace glimmer {
 
-inline constexpr size_t kLoopLanes = 16;
+inline constexpr size_t kLoopLanes = 16; ///< counts are multiples of it
 
 /// What the loops ask of a medium. Extinction by channel, per length.
 struct LoopMedium {

@@ -60,7 +60,7 @@ ConnectionSums connect(const LoopMedium &medium, const FogColumns &vertices, siz
     const Float16 sx(point.seen_x), sy(point.seen_y), sz(point.seen_z);
     const Phases phases(medium.g);
     Float16 red, green, blue, lanes;
-    for (size_t j = 0; j < count; j += kLanes) {
+    for (size_t j = 0; j < count; j += kLoopLanes) {
         const Differences way = from(point, vertices, j);
         const Float16 d2 = squared(way), d = sqrt(d2);
         Float16 scale = even / (d2 + bound2);
@@ -88,7 +88,7 @@ void weigh(const LoopMedium &medium, const FogColumns &vertices, size_t count, c
            size_t point_count, float soften, float *targets) {
     const Float16 sigma(-(medium.sigma_r + medium.sigma_g + medium.sigma_b) / 3), soften2(soften * soften);
     const Phases phases(medium.g);
-    for (size_t j = 0; j < count; j += kLanes) {
+    for (size_t j = 0; j < count; j += kLoopLanes) {
         Float16 near;
         for (size_t i = 0; i < point_count; ++i) {
             const Differences way = from(points[i], vertices, j);
