@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // For the tests alone: the kernels in bulk behind a C interface, for ctypes. Arrays are C-contiguous; shapes stand in
-// brackets. Directions and colours are [n, 3], u is [n, 2]. No checks: the caller is tests/engine/probe.py.
+// brackets. Directions and colours are [n, 3], u is [n, 2]. No checks: the caller is tests/engine/probe.
 #pragma once
 
 #include "math/vec.h"

@@ -11,7 +11,7 @@ import pytest
 from addon.native import structs
 from tests.engine.bits import assert_same_bits, broken_off_within_batches, pictures
 from tests.engine.library import Image, Render, Scene, functions, last_error, pass_table
-from tests.engine.probe import sample_plan
+from tests.engine.probe.film import sample_plan
 from tests.engine.worlds import everything
 
 LOWEST, HIGHEST = 0.25, 4.0

@@ -7,14 +7,15 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.engine import probe
-from tests.engine.probe import Array, Lobe
+from tests.engine.probe import bsdf, fresnel, sampling
+from tests.engine.probe.bsdf import Lobe
+from tests.engine.probe.call import Array
 from tests.engine.significance import ROUNDING, Family, bin_integrals, double, histogram, relative_error, single
 
 family = Family(size=97)
 N = 200_000
 WHITE = (1.0, 1.0, 1.0)
-GOLD = Lobe(probe.CONDUCTOR, eta=(0.143, 0.375, 1.442), k=(3.983, 2.386, 1.603))
+GOLD = Lobe(bsdf.CONDUCTOR, eta=(0.143, 0.375, 1.442), k=(3.983, 2.386, 1.603))
 
 
 def direction(mu: float, turn: float = 0.1) -> Array:
@@ -75,7 +76,7 @@ def chart_integrals(lobes: list[Lobe], wo: Array, alpha: float, bins: int = 12) 
 
     def density(x: Array, phi: Array) -> Array:
         wi, jacobian = from_chart(wo, alpha, x, phi)
-        f, pdf = probe.bsdf_eval(lobes, wo, wi)
+        f, pdf = bsdf.evaluate(lobes, wo, wi)
         return np.stack([pdf, f[:, 0]], axis=1) * jacobian[:, None]
 
     # wo near the horizon: the limit of v turns within an azimuth of its cosine.
@@ -91,23 +92,23 @@ def case(name: str, mu: float) -> tuple[list[Lobe], float, Array, Array, Array]:
     return lobes, alpha, wo, *chart_integrals(lobes, wo, alpha)
 
 
-def metal(alpha: float, masking: int = probe.SMITH) -> Lobe:
+def metal(alpha: float, masking: int = bsdf.SMITH) -> Lobe:
     """F = 1 at all angles."""
-    return Lobe(probe.CONDUCTOR, alpha=alpha, f0=WHITE, masking=masking)
+    return Lobe(bsdf.CONDUCTOR, alpha=alpha, f0=WHITE, masking=masking)
 
 
 MIX = [
-    Lobe(probe.LAMBERT, weight=0.3, color=(0.8, 0.6, 0.2)),
+    Lobe(bsdf.LAMBERT, weight=0.3, color=(0.8, 0.6, 0.2)),
     replace(GOLD, weight=0.5, alpha=0.3),
-    Lobe(probe.CONDUCTOR, weight=0.2, alpha=0.6, f0=(0.9, 0.5, 0.3), masking=probe.SCHLICK_GGX),
+    Lobe(bsdf.CONDUCTOR, weight=0.2, alpha=0.6, f0=(0.9, 0.5, 0.3), masking=bsdf.SCHLICK_GGX),
 ]
-REPORT = Lobe(probe.REPORT_METAL, color=(0.5, 0.5, 0.55), f0=(0.6, 0.5, 0.4), alpha=0.4)
+REPORT = Lobe(bsdf.REPORT_METAL, color=(0.5, 0.5, 0.55), f0=(0.6, 0.5, 0.4), alpha=0.4)
 
 CASES: dict[str, tuple[list[Lobe], float]] = {
-    "lambert": ([Lobe(probe.LAMBERT, color=(0.5, 0.3, 0.1))], 1),
+    "lambert": ([Lobe(bsdf.LAMBERT, color=(0.5, 0.3, 0.1))], 1),
     **{f"metal {a}": ([metal(a)], a) for a in (1e-4, 1e-3, 0.02, 0.1, 0.5, 1.0)},
-    "separable": ([metal(0.4, probe.SMITH_SEPARABLE)], 0.4),
-    "schlick-ggx": ([metal(0.4, probe.SCHLICK_GGX)], 0.4),
+    "separable": ([metal(0.4, bsdf.SMITH_SEPARABLE)], 0.4),
+    "schlick-ggx": ([metal(0.4, bsdf.SCHLICK_GGX)], 0.4),
     "gold": ([replace(GOLD, alpha=0.25)], 0.25),
     "report": ([REPORT], 0.4),
     "mix": (MIX, 0.6),
@@ -120,17 +121,17 @@ SEEN_FROM = [(name, mu) for name in CASES for mu in (1.0, 0.6, 0.1, 0.01) if (na
 def test_samples_follow_the_pdf(name: str, mu: float) -> None:
     """Chi-squared over the chart, nothing being one more bin; and the weight of every sample is eval / pdf."""
     lobes, alpha, wo, cells, _ = case(name, mu)
-    u = probe.uniform(hash_of(name, mu), N)
-    s = probe.bsdf_sample(lobes, wo, probe.uniform(hash_of(name, mu) + 1, N)[:, 0], u)
-    drawn = s.result == probe.SMOOTH
-    assert (s.result != probe.SPECULAR).all()
+    u = sampling.uniform(hash_of(name, mu), N)
+    s = bsdf.sample(lobes, wo, sampling.uniform(hash_of(name, mu) + 1, N)[:, 0], u)
+    drawn = s.result == bsdf.SMOOTH
+    assert (s.result != bsdf.SPECULAR).all()
     assert (s.wi[drawn, 2] > 0).all()
     assert np.abs((s.wi[drawn].astype(np.float64) ** 2).sum(1) - 1).max() <= 24 * ROUNDING
     counts = histogram(*to_chart(wo, alpha, s.wi[drawn]), *cells.shape)
     observed = np.append(counts.ravel(), N - drawn.sum())
     family.chi_squared(observed, np.append(cells.ravel(), max(0, 1 - cells.sum())) * N, f"{name} at {mu}")
 
-    f, pdf = probe.bsdf_eval(lobes, wo, s.wi[drawn])
+    f, pdf = bsdf.evaluate(lobes, wo, s.wi[drawn])
     assert (pdf > 0).all()
     # The same D stands in f and pdf: their quotient is exact. The sampled density knows h better than wi does, which
     # tells its slope to 2^-24 / (2 mu), in units of alpha; and D goes with its fourth power.
@@ -148,9 +149,9 @@ def test_weights_estimate_the_albedo(name: str, mu: float) -> None:
     """The mean of the weights, samples that found nothing included, is the integral of f cos over the hemisphere."""
     lobes, alpha, _, _, f_cos = case(name, mu)
     seed = hash_of(name, mu) + 7
-    s = probe.bsdf_sample(lobes, direction(mu), probe.uniform(seed, N)[:, 0], probe.uniform(seed + 1, N))
-    if len(lobes) == 1 and lobes[0].type == probe.LAMBERT:
-        assert (s.weight[s.result == probe.SMOOTH] == single(lobes[0].color)).all()
+    s = bsdf.sample(lobes, direction(mu), sampling.uniform(seed, N)[:, 0], sampling.uniform(seed + 1, N))
+    if len(lobes) == 1 and lobes[0].type == bsdf.LAMBERT:
+        assert (s.weight[s.result == bsdf.SMOOTH] == single(lobes[0].color)).all()
         assert f_cos.sum() == pytest.approx(lobes[0].color[0], rel=1e-5)
     else:
         blur = ROUNDING / (2 * mu * alpha)  # of the slope of h in eval, as above; means feel it in second order
@@ -165,7 +166,7 @@ def test_the_bound_touches_the_horizon(alpha: float, mu: float) -> None:
 
     def highest(from_the_end: float) -> float:
         u = np.stack([azimuths, np.full(len(azimuths), 1 - from_the_end, np.float32)], axis=1)
-        s = probe.bsdf_sample([metal(alpha)], direction(mu), azimuths, u)
+        s = bsdf.sample([metal(alpha)], direction(mu), azimuths, u)
         return float(s.wi[:, 2].max())  # 0 where nothing was found
 
     assert highest(2.0**-24) <= 1e-3
@@ -189,7 +190,7 @@ def test_directional_albedos(alpha: float, mu: float, listed: float) -> None:
     lobes, wo = [metal(alpha)], direction(mu)
     albedo = float(chart_integrals(lobes, wo, alpha)[1].sum())
     assert albedo == pytest.approx(listed, abs=0.5e-4 + 1e-6)
-    s = probe.bsdf_sample(lobes, wo, probe.uniform(1, N)[:, 0], probe.uniform(2, N))
+    s = bsdf.sample(lobes, wo, sampling.uniform(1, N)[:, 0], sampling.uniform(2, N))
     family.mean(s.weight[:, 0], albedo, f"albedo at alpha {alpha}, mu {mu}")
     # A property of bounded sampling: no weight exceeds F.
     assert s.weight.max() <= 1 + 8 * ROUNDING
@@ -205,7 +206,7 @@ def test_reciprocity(name: str) -> None:
     rng = np.random.default_rng(3)
     for _ in range(200):
         wo, wi = (direction(rng.uniform(0.05, 1), rng.random()) for _ in range(2))
-        there, back = probe.bsdf_eval(lobes, wo, [wi])[0][0] / wi[2], probe.bsdf_eval(lobes, wi, [wo])[0][0] / wo[2]
+        there, back = bsdf.evaluate(lobes, wo, [wi])[0][0] / wi[2], bsdf.evaluate(lobes, wi, [wo])[0][0] / wo[2]
         assert relative_error(there, back).max() <= 32 * ROUNDING
 
 
@@ -213,12 +214,12 @@ def test_a_mix_is_the_weighted_sum() -> None:
     rng = np.random.default_rng(4)
     wo = direction(0.4)
     wi = np.array([direction(rng.uniform(0.01, 1), rng.random()) for _ in range(100)])
-    parts = [lobe.weight * probe.bsdf_eval([replace(lobe, weight=1)], wo, wi)[0] for lobe in MIX]
-    f, pdf = probe.bsdf_eval(MIX, wo, wi)
+    parts = [lobe.weight * bsdf.evaluate([replace(lobe, weight=1)], wo, wi)[0] for lobe in MIX]
+    f, pdf = bsdf.evaluate(MIX, wo, wi)
     assert relative_error(f, np.sum(parts, axis=0)).max() <= 8 * ROUNDING
-    select, albedo, specular, has_specular = probe.bsdf_describe(MIX)
+    select, albedo, specular, has_specular = bsdf.describe(MIX)
     assert select.sum() == pytest.approx(1, abs=4 * ROUNDING)
-    pdfs = [p * probe.bsdf_eval([lobe], wo, wi)[1] for p, lobe in zip(select, MIX, strict=True)]
+    pdfs = [p * bsdf.evaluate([lobe], wo, wi)[1] for p, lobe in zip(select, MIX, strict=True)]
     assert relative_error(pdf, np.sum(pdfs, axis=0)).max() <= 8 * ROUNDING
     assert (specular, has_specular) == (False, False)
     assert ((albedo > 0) & (albedo < 1)).all()
@@ -227,59 +228,59 @@ def test_a_mix_is_the_weighted_sum() -> None:
 def test_specular_lobes_in_a_mix() -> None:
     """Mirror, smooth metal and Lambert: deltas come with weight / probability of selection, drawn that often."""
     mix = [
-        Lobe(probe.MIRROR, weight=0.25, color=(0.9, 0.8, 0.7)),
+        Lobe(bsdf.MIRROR, weight=0.25, color=(0.9, 0.8, 0.7)),
         replace(GOLD, weight=0.35, alpha=9e-5),
-        Lobe(probe.LAMBERT, weight=0.4, color=(0.5, 0.5, 0.5)),
-        Lobe(probe.MIRROR, weight=0, color=WHITE),
+        Lobe(bsdf.LAMBERT, weight=0.4, color=(0.5, 0.5, 0.5)),
+        Lobe(bsdf.MIRROR, weight=0, color=WHITE),
     ]
-    select, _, specular, has_specular = probe.bsdf_describe(mix)
+    select, _, specular, has_specular = bsdf.describe(mix)
     assert select[3] == 0
     assert (specular, has_specular) == (False, True)
-    assert probe.bsdf_describe(mix[:2])[2:] == (True, True)
+    assert bsdf.describe(mix[:2])[2:] == (True, True)
     wo = direction(0.7, 0.3)
-    s = probe.bsdf_sample(mix, wo, probe.uniform(5, N)[:, 0], probe.uniform(6, N))
-    delta = s.result == probe.SPECULAR
+    s = bsdf.sample(mix, wo, sampling.uniform(5, N)[:, 0], sampling.uniform(6, N))
+    delta = s.result == bsdf.SPECULAR
     assert np.abs(s.wi[delta] - wo * [-1, -1, 1]).max() <= ROUNDING
-    fresnel = probe.fresnel_conductor(0.7, GOLD.eta, GOLD.k)
+    metal = fresnel.conductor(0.7, GOLD.eta, GOLD.k)
     mirror = np.abs(s.pdf - select[0]) < ROUNDING
-    counts = [(delta & mirror).sum(), (delta & ~mirror).sum(), (s.result == probe.SMOOTH).sum()]
+    counts = [(delta & mirror).sum(), (delta & ~mirror).sum(), (s.result == bsdf.SMOOTH).sum()]
     family.chi_squared(counts, select[:3].astype(np.float64) * N, "choice of a lobe")
-    for chosen, own, lobe in ((delta & mirror, (0.9, 0.8, 0.7), 0), (delta & ~mirror, fresnel, 1)):
+    for chosen, own, lobe in ((delta & mirror, (0.9, 0.8, 0.7), 0), (delta & ~mirror, metal, 1)):
         expected = np.array(own) * mix[lobe].weight / select[lobe]
         assert relative_error(s.weight[chosen], np.broadcast_to(expected, (chosen.sum(), 3))).max() <= 16 * ROUNDING
-    assert np.abs(s.weight[s.result == probe.SMOOTH] - 0.5 * 0.4 / select[2]).max() <= 8 * ROUNDING
-    f, pdf = probe.bsdf_eval(mix, wo, [wo * [-1, -1, 1]])
+    assert np.abs(s.weight[s.result == bsdf.SMOOTH] - 0.5 * 0.4 / select[2]).max() <= 8 * ROUNDING
+    f, pdf = bsdf.evaluate(mix, wo, [wo * [-1, -1, 1]])
     assert f[0] == pytest.approx(np.full(3, 0.4 * 0.5 / np.pi * wo[2]), rel=1e-5)
     assert pdf[0] == pytest.approx(select[2] * wo[2] / np.pi, rel=1e-5)
 
 
 def test_nothing_below_the_surface() -> None:
     for lobes, _ in CASES.values():
-        f, pdf = probe.bsdf_eval(lobes, direction(0.3), np.array([[0.5, 0.1, -0.86], [1, 0, 0]]))
+        f, pdf = bsdf.evaluate(lobes, direction(0.3), np.array([[0.5, 0.1, -0.86], [1, 0, 0]]))
         assert not f.any()
         assert not pdf.any()
 
 
 def test_black_and_empty() -> None:
-    u = probe.uniform(7, 100)
-    assert (probe.bsdf_sample([], direction(0.5), u[:, 0], u).result == probe.NOTHING).all()
-    assert probe.bsdf_describe([])[2:] == (True, False)
-    black = [Lobe(probe.LAMBERT, weight=0.5), Lobe(probe.LAMBERT, weight=0.5)]
-    assert probe.bsdf_describe(black)[0].tolist() == [0.5, 0.5]
-    assert not probe.bsdf_sample(black, direction(0.5), u[:, 0], u).weight.any()
+    u = sampling.uniform(7, 100)
+    assert (bsdf.sample([], direction(0.5), u[:, 0], u).result == bsdf.NOTHING).all()
+    assert bsdf.describe([])[2:] == (True, False)
+    black = [Lobe(bsdf.LAMBERT, weight=0.5), Lobe(bsdf.LAMBERT, weight=0.5)]
+    assert bsdf.describe(black)[0].tolist() == [0.5, 0.5]
+    assert not bsdf.sample(black, direction(0.5), u[:, 0], u).weight.any()
 
 
 @pytest.mark.parametrize("mu", [1e-4, 1e-7, 1e-20])
 def test_grazing_directions_stay_finite(mu: float) -> None:
     """At any cosine of wo, and alpha: finite weights and densities; a white metal reflects at most what arrives."""
-    u, u_lobe = probe.uniform(8, 20_000), probe.uniform(9, 20_000)[:, 0]
+    u, u_lobe = sampling.uniform(8, 20_000), sampling.uniform(9, 20_000)[:, 0]
     wo = np.array([1, 0, mu])
     for lobes, _ in CASES.values():
-        s = probe.bsdf_sample(lobes, wo, u_lobe, u)
-        drawn = s.result == probe.SMOOTH
-        f, pdf = probe.bsdf_eval(lobes, wo, s.wi[drawn])
+        s = bsdf.sample(lobes, wo, u_lobe, u)
+        drawn = s.result == bsdf.SMOOTH
+        f, pdf = bsdf.evaluate(lobes, wo, s.wi[drawn])
         for values in (s.weight, s.pdf, f, pdf):
             assert np.isfinite(values).all()
             assert (values >= 0).all()
-        if lobes[0].f0 == WHITE and lobes[0].masking == probe.SMITH:
+        if lobes[0].f0 == WHITE and lobes[0].masking == bsdf.SMITH:
             assert s.weight.max() <= 1 + 16 * ROUNDING

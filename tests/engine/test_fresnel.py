@@ -5,8 +5,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from tests.engine import probe
-from tests.engine.probe import Array
+from tests.engine.probe import fresnel, sampling
+from tests.engine.probe.call import Array
 from tests.engine.significance import ROUNDING, Family, double, relative_error, single
 
 family = Family(size=4)
@@ -45,7 +45,7 @@ METALS = [
 @pytest.mark.parametrize(("eta", "k"), METALS)
 def test_conductor(eta: float, k: float) -> None:
     n = double(single(eta)) + 1j * double(single(k))
-    got = probe.fresnel_conductor(COSINES, eta, k)
+    got = fresnel.conductor(COSINES, eta, k)
     assert np.abs(got - exact_fresnel(COSINES, n)).max() <= 16 * ROUNDING
     assert got[-1] == 1
 
@@ -53,11 +53,11 @@ def test_conductor(eta: float, k: float) -> None:
 def test_conductor_at_its_limits() -> None:
     """An index that leaves nothing behind, total reflection from k = 0, and the critical angle: finite, in [0, 1]."""
     grid = np.array([(c, e, k) for c in COSINES for e in (1e-6, 0.5, 1, 1.0001, 50) for k in (0, 1e-10, 1e-3, 1e4)])
-    got = probe.fresnel_conductor(*grid.T)
+    got = fresnel.conductor(*grid.T)
     assert np.isfinite(got).all()
     assert ((got >= 0) & (got <= 1 + 4 * ROUNDING)).all()
-    assert probe.fresnel_conductor(0.5, 0.5, 0)[0] == 1
-    assert probe.fresnel_conductor(0.5, 1, 0)[0] <= ROUNDING
+    assert fresnel.conductor(0.5, 0.5, 0)[0] == 1
+    assert fresnel.conductor(0.5, 1, 0)[0] <= ROUNDING
 
 
 @pytest.mark.parametrize("eta", [1.5, 1 / 1.5, 1.33, 2.4, 1 / 2.4, 10, 0.1, 1.01, 1.0001, 0.9999, 1.000001, 1])
@@ -66,7 +66,7 @@ def test_dielectric(eta: float) -> None:
     n = double(single(eta))
     # Not within a rounding of the critical angle, where the reflectance has a vertical tangent.
     cosines = COSINES[np.abs(double(COSINES) ** 2 + n * n - 1) > 1e-6 * (n != 1)]
-    got, exact = probe.fresnel_dielectric(cosines, eta), exact_fresnel(cosines, n)
+    got, exact = fresnel.dielectric(cosines, eta), exact_fresnel(cosines, n)
     assert np.abs(got - exact).max() <= 16 * ROUNDING
     if n == 1:
         assert not got.any()
@@ -81,17 +81,17 @@ def test_dielectric(eta: float) -> None:
 def test_schlick() -> None:
     f0 = 0.3
     expected = f0 + (1 - f0) * (1 - double(COSINES)) ** 5
-    assert relative_error(probe.fresnel_schlick(COSINES, f0), expected).max() <= 8 * ROUNDING
+    assert relative_error(fresnel.schlick(COSINES, f0), expected).max() <= 8 * ROUNDING
     falling = f0 + (0.1 - f0) * (1 - double(COSINES)) ** 5
-    assert relative_error(probe.fresnel_schlick(COSINES, f0, 0.1), falling).max() <= 16 * ROUNDING
-    assert (probe.fresnel_schlick(COSINES, f0, f0) == single(f0)).all()
+    assert relative_error(fresnel.schlick(COSINES, f0, 0.1), falling).max() <= 16 * ROUNDING
+    assert (fresnel.schlick(COSINES, f0, f0) == single(f0)).all()
     for eta in (1.5, 1.0001, 10):
         r0 = ((double(single(eta)) - 1) / (double(single(eta)) + 1)) ** 2
-        assert probe.fresnel_dielectric_schlick(1, eta)[0] == pytest.approx(r0, rel=1e-6)
-        assert probe.fresnel_dielectric_schlick(0, eta)[0] == 1
+        assert fresnel.dielectric_schlick(1, eta)[0] == pytest.approx(r0, rel=1e-6)
+        assert fresnel.dielectric_schlick(0, eta)[0] == 1
     # From within: continuous into total reflection.
     critical = np.sqrt(1 - 1 / 1.5**2)
-    below, above = probe.fresnel_dielectric_schlick([critical - 1e-4, critical + 1e-6], 1 / 1.5)
+    below, above = fresnel.dielectric_schlick([critical - 1e-4, critical + 1e-6], 1 / 1.5)
     assert below == 1
     assert above > 0.97
 
@@ -103,7 +103,7 @@ def test_ggx_density_of_normals(alpha: float) -> None:
     a = mpmath.mpf(float(np.float32(alpha)))
     tangents = np.array([0, 0.01, 0.3, 1, 3, 10, 100]) * alpha
     h = single([(t / np.sqrt(1 + t * t) * 0.6, t / np.sqrt(1 + t * t) * 0.8, 1 / np.sqrt(1 + t * t)) for t in tangents])
-    for normal, got in zip(h, probe.ggx_d(h, alpha), strict=True):
+    for normal, got in zip(h, fresnel.ggx_d(h, alpha), strict=True):
         x, y, z = (mpmath.mpf(float(v)) for v in normal)
         exact = a**2 / (mpmath.pi * (a**2 * z**2 + x**2 + y**2) ** 2)
         assert abs((float(got) - exact) / exact) <= 12 * ROUNDING
@@ -124,21 +124,21 @@ def incident(cosines: Array) -> Array:
 def test_glass_reflects_and_refracts(eta: float, schlick: bool) -> None:
     wo = incident(double(COSINES))
     n = double(single(eta))
-    fresnel = (probe.fresnel_dielectric_schlick if schlick else probe.fresnel_dielectric)(COSINES, eta)
-    up, down = probe.glass(wo, eta, 0, schlick), probe.glass(wo, eta, 1 - 2.0**-24, schlick)
+    reflectance = (fresnel.dielectric_schlick if schlick else fresnel.dielectric)(COSINES, eta)
+    up, down = fresnel.glass(wo, eta, 0, schlick), fresnel.glass(wo, eta, 1 - 2.0**-24, schlick)
     for s in (up, down):
         assert all(np.isfinite(v).all() for v in s)
-        chosen = np.where(s.transmitted == 1, 1 - fresnel, fresnel)
+        chosen = np.where(s.transmitted == 1, 1 - reflectance, reflectance)
         assert np.abs(s.probability - chosen).max() <= ROUNDING
         assert (s.probability > 0).all()
     reflected = up.transmitted == 0
-    assert (reflected == (fresnel > 0)).all()
+    assert (reflected == (reflectance > 0)).all()
     assert (up.wi[reflected] == wo[reflected] * [-1, -1, 1]).all()
     assert (up.weight[reflected] == 1).all()
     through = down.transmitted == 1
     # The last number below 1 is transmitted unless reflection is total to a rounding.
-    assert through[fresnel < 1 - 2.0**-23].all()
-    assert not through[fresnel == 1].any()
+    assert through[reflectance < 1 - 2.0**-23].all()
+    assert not through[reflectance == 1].any()
     wi = down.wi[through].astype(np.float64)
     assert np.abs(wi[:, :2] + wo[through, :2] / n).max(initial=0) <= 2 * ROUNDING / min(eta, 1)  # Snell
     assert np.abs((wi**2).sum(1) - 1).max(initial=0) <= 8 * ROUNDING / min(eta, 1) ** 2
@@ -150,7 +150,7 @@ def test_glass_reflects_and_refracts(eta: float, schlick: bool) -> None:
 
 def test_equal_indices_do_nothing() -> None:
     wo = incident(double(COSINES))
-    s = probe.glass(wo, 1, 0)
+    s = fresnel.glass(wo, 1, 0)
     assert s.transmitted.all()
     assert np.abs(s.wi + wo).max() <= ROUNDING
     assert (s.weight == 1).all()
@@ -160,8 +160,8 @@ def test_equal_indices_do_nothing() -> None:
 def test_refraction_reverses(eta: float) -> None:
     """Back through the same boundary: the old direction, the same probability, and weights that cancel."""
     wo = incident(np.linspace(0.05, 1, 200))
-    into = probe.glass(wo, eta, 1 - 2.0**-24)
-    back = probe.glass(into.wi * [1, 1, -1], single(1) / single(eta), 1 - 2.0**-24)
+    into = fresnel.glass(wo, eta, 1 - 2.0**-24)
+    back = fresnel.glass(into.wi * [1, 1, -1], single(1) / single(eta), 1 - 2.0**-24)
     assert into.transmitted.all()
     assert back.transmitted.all()
     # cos_t of the way back has the condition eta^2 / cos.
@@ -175,8 +175,8 @@ def test_refraction_reverses(eta: float) -> None:
 def test_choice_follows_fresnel(eta: float, cosine: float) -> None:
     """A furnace of radiance n^2 on each side sends n^2 back; the reflected share is Fresnel's."""
     n = 100_000
-    u = probe.uniform(7, n)[:, 0]
-    s = probe.glass(np.broadcast_to(incident(np.array([cosine])), (n, 3)), eta, u)
+    u = sampling.uniform(7, n)[:, 0]
+    s = fresnel.glass(np.broadcast_to(incident(np.array([cosine])), (n, 3)), eta, u)
     value = np.where(s.transmitted == 1, eta**2, 1) * s.weight[:, 0]
     assert np.abs(value - 1).max() <= 8 * ROUNDING
     exact = exact_fresnel(single([cosine]), double(single([eta])))[0]

@@ -5,8 +5,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from tests.engine import probe
-from tests.engine.probe import Array
+from tests.engine.probe import sampling, shapes
+from tests.engine.probe.call import Array
 from tests.engine.significance import ROUNDING, Family, bin_integrals, double, histogram, relative_error
 
 family = Family(size=37)
@@ -43,7 +43,7 @@ RATIOS = (0.9999, 0.9, 0.2, 1e-2, 1e-3, 1e-4)
 def test_sphere_cone(s: float) -> None:
     d = np.linalg.norm(CENTRE)
     omc = exact_one_minus_cos(s)
-    drawn = probe.shape_sample(probe.SPHERE, [*CENTRE, s * d], probe.uniform(1, N))
+    drawn = shapes.sample(shapes.SPHERE, [*CENTRE, s * d], sampling.uniform(1, N))
     assert drawn.found.all()
     tail, azimuth = cone_coordinates(CENTRE / d, double(drawn.wi))
     bins = 12 if s > 2e-3 else 4
@@ -51,7 +51,7 @@ def test_sphere_cone(s: float) -> None:
     family.chi_squared(counts, np.full((bins, bins), N / bins**2), f"sphere of R/d {s}")
     pdf = 1 / (2 * np.pi * omc)
     assert relative_error(drawn.pdf, np.full(N, pdf)).max() <= 2 * ROUNDING
-    assert (probe.shape_pdf(probe.SPHERE, [*CENTRE, s * d], drawn.wi[:9]) == drawn.pdf[0]).all()
+    assert (shapes.pdf(shapes.SPHERE, [*CENTRE, s * d], drawn.wi[:9]) == drawn.pdf[0]).all()
 
 
 @pytest.mark.parametrize("s", [*RATIOS, 1e-5, 1e-6, 1 - 1e-12])
@@ -60,7 +60,7 @@ def test_sphere_density_and_distance(s: float) -> None:
     d = 1e4
     omc = exact_one_minus_cos(s)
     u = np.array([[x, 0.25] for x in (0, 2.0**-24, 0.3, 0.9, 0.999, 1 - 2.0**-24)], np.float32)
-    drawn = probe.shape_sample(probe.SPHERE, [0, 0, d, s * d], u)
+    drawn = shapes.sample(shapes.SPHERE, [0, 0, d, s * d], u)
     assert drawn.pdf[0] == pytest.approx(1 / (2 * np.pi * omc), rel=2 * ROUNDING)
     mpmath.mp.dps = 50
     for x, got in zip(u[:, 0], drawn.distance, strict=True):
@@ -74,7 +74,7 @@ def test_sphere_density_and_distance(s: float) -> None:
 def test_the_smallest_sphere_still_points_at_itself() -> None:
     """At R/d = 1e-6 the direction's rounding is 3e-8: every sample within that of the cone."""
     d = np.linalg.norm(CENTRE)
-    drawn = probe.shape_sample(probe.SPHERE, [*CENTRE, 1e-6 * d], probe.uniform(2, N))
+    drawn = shapes.sample(shapes.SPHERE, [*CENTRE, 1e-6 * d], sampling.uniform(2, N))
     tail, _ = cone_coordinates(CENTRE / d, double(drawn.wi))
     assert np.sqrt(2 * tail).max() <= 1e-6 + 2 * ROUNDING
     # And it is no single direction: the root mean square angle of a uniform cone is s / sqrt 2.
@@ -84,7 +84,7 @@ def test_the_smallest_sphere_still_points_at_itself() -> None:
 @pytest.mark.parametrize("centre", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.6), (0.6, 0.0, 0.8)])
 def test_inside_a_sphere(centre: tuple[float, float, float]) -> None:
     """Also on its surface: all directions, and the far side."""
-    drawn = probe.shape_sample(probe.SPHERE, [*centre, 1], probe.uniform(3, N))
+    drawn = shapes.sample(shapes.SPHERE, [*centre, 1], sampling.uniform(3, N))
     w = double(drawn.wi)
     counts = histogram((w[:, 2] + 1) / 2, (np.arctan2(w[:, 1], w[:, 0]) / (2 * np.pi)) % 1, 12, 12)
     family.chi_squared(counts, np.full((12, 12), N / 144), f"inside at {centre}")
@@ -101,25 +101,25 @@ def test_inside_a_sphere(centre: tuple[float, float, float]) -> None:
 def test_sun(angle: float) -> None:
     travels = np.array([0.3, -2.0, -1.0])
     towards = -travels / np.linalg.norm(travels)
-    drawn = probe.shape_sample(probe.SUN, [*travels, angle], probe.uniform(4, N))
+    drawn = shapes.sample(shapes.SUN, [*travels, angle], sampling.uniform(4, N))
     omc = 2 * np.sin(np.radians(angle) / 4) ** 2
     tail, azimuth = cone_coordinates(towards, double(drawn.wi))
     family.chi_squared(histogram(tail / omc, azimuth, 8, 8), np.full((8, 8), N / 64), f"sun of {angle}")
     assert np.isinf(drawn.distance).all()
     assert relative_error(drawn.pdf, np.full(N, 1 / (2 * np.pi * omc))).max() <= 2 * ROUNDING
-    twin = probe.shape_pdf(probe.SUN, [*travels, angle], drawn.wi)
+    twin = shapes.pdf(shapes.SUN, [*travels, angle], drawn.wi)
     inside = tail < omc * (1 - 1e-3)
     assert (twin[inside] == drawn.pdf[inside]).all()
-    assert not probe.shape_pdf(probe.SUN, [*travels, angle], -drawn.wi[inside]).any()
+    assert not shapes.pdf(shapes.SUN, [*travels, angle], -drawn.wi[inside]).any()
     projected = np.pi * np.sin(np.radians(angle / 2)) ** 2
-    assert probe.sun_projected_solid_angle([*travels, angle]) == pytest.approx(projected, rel=1e-12)
+    assert shapes.sun_projected_solid_angle([*travels, angle]) == pytest.approx(projected, rel=1e-12)
 
 
 def test_a_sun_without_size() -> None:
-    drawn = probe.shape_sample(probe.SUN, [0, 0, -2, 0], probe.uniform(5, 10))
+    drawn = shapes.sample(shapes.SUN, [0, 0, -2, 0], sampling.uniform(5, 10))
     assert (drawn.wi == [0, 0, 1]).all()
     assert (drawn.pdf == 1).all()
-    assert not probe.shape_pdf(probe.SUN, [0, 0, -2, 0], [[0, 0, 1]]).any()
+    assert not shapes.pdf(shapes.SUN, [0, 0, -2, 0], [[0, 0, 1]]).any()
 
 
 # ---- Flat shapes ----
@@ -144,9 +144,9 @@ def placed(kind: int, position: str) -> tuple[Array, Array, Array, Array, Array]
     x, y, z = TILT.T
     centre = -(TILT @ np.array(seen_from))
     half_x, half_y = x * 0.5 * scale, y * 0.8 * scale
-    if kind == probe.RECTANGLE:
+    if kind == shapes.RECTANGLE:
         shape = [centre - half_x - half_y, 2 * half_x, 2 * half_y]
-    elif kind == probe.ELLIPSE:
+    elif kind == shapes.ELLIPSE:
         shape = [centre, half_x, half_y]
     else:
         shape = [centre - half_x - half_y, centre + half_x - half_y, centre + half_y]
@@ -165,13 +165,13 @@ def angles(centre: Array, half: Array) -> tuple[float, float, float, float]:
 def plane_coordinates(kind: int, points: Array, centre: Array, half_x: Array, half_y: Array) -> tuple[Array, Array]:
     a = (points - centre) @ half_x / (half_x @ half_x)
     b = (points - centre) @ half_y / (half_y @ half_y)
-    if kind == probe.RECTANGLE:
+    if kind == shapes.RECTANGLE:
         out = []
         for t, half in ((a, half_x), (b, half_y)):
             start, turn, height, foot = angles(centre, half)
             out.append((np.arctan2(t * np.linalg.norm(half) - foot, height) - start) / turn)
         return out[0], out[1]
-    if kind == probe.ELLIPSE:
+    if kind == shapes.ELLIPSE:
         return a * a + b * b, (np.arctan2(b, a) / (2 * np.pi)) % 1
     rest = (1 - b) / 2  # 1 at the base, 0 at the apex; halves of the base run from -rest to rest
     return rest**2, (a / rest + 1) / 2
@@ -180,7 +180,7 @@ def plane_coordinates(kind: int, points: Array, centre: Array, half_x: Array, ha
 def plane_points(kind: int, x: Array, y: Array, centre: Array, half_x: Array, half_y: Array) -> tuple[Array, Array]:
     """Points of the chart, and the area per unit of it."""
     area = np.full(len(x), np.linalg.norm(np.cross(half_x, half_y)))
-    if kind == probe.RECTANGLE:
+    if kind == shapes.RECTANGLE:
         axes = []
         for t, half in ((x, half_x), (y, half_y)):
             start, turn, height, foot = angles(centre, half)
@@ -188,7 +188,7 @@ def plane_points(kind: int, x: Array, y: Array, centre: Array, half_x: Array, ha
             axes.append((height * np.tan(angle) + foot) / extent)
             area = area * height * turn / np.cos(angle) ** 2 / extent
         a, b = axes
-    elif kind == probe.ELLIPSE:
+    elif kind == shapes.ELLIPSE:
         a, b = np.sqrt(x) * np.cos(2 * np.pi * y), np.sqrt(x) * np.sin(2 * np.pi * y)
         area = np.pi * area
     else:
@@ -198,7 +198,7 @@ def plane_points(kind: int, x: Array, y: Array, centre: Array, half_x: Array, ha
     return centre + a[:, None] * half_x + b[:, None] * half_y, area
 
 
-SHAPES = {"rectangle": probe.RECTANGLE, "ellipse": probe.ELLIPSE, "triangle": probe.TRIANGLE}
+SHAPES = {"rectangle": shapes.RECTANGLE, "ellipse": shapes.ELLIPSE, "triangle": shapes.TRIANGLE}
 
 
 @pytest.mark.parametrize("position", POSITIONS)
@@ -207,7 +207,7 @@ def test_flat_shapes(name: str, position: str) -> None:
     """Samples follow the pdf, the pdf integrates to 1, its twin agrees, and the distance ends on the shape."""
     kind = SHAPES[name]
     shape, centre, half_x, half_y, normal = placed(kind, position)
-    drawn = probe.shape_sample(kind, shape, probe.uniform(6, N))
+    drawn = shapes.sample(kind, shape, sampling.uniform(6, N))
     assert drawn.found.all()
     w = double(drawn.wi)
     assert np.abs((w**2).sum(1) - 1).max() <= 8 * ROUNDING
@@ -216,7 +216,7 @@ def test_flat_shapes(name: str, position: str) -> None:
         points, area = plane_points(kind, x, y, centre, half_x, half_y)
         d2 = (points**2).sum(1)
         wi = points / np.sqrt(d2)[:, None]
-        return double(probe.shape_pdf(kind, shape, wi)) * np.abs(wi @ normal) / d2 * area
+        return double(shapes.pdf(kind, shape, wi)) * np.abs(wi @ normal) / d2 * area
 
     # Where w meets the plane, rather than w times the rounded distance.
     height = float(centre @ normal)
@@ -231,11 +231,11 @@ def test_flat_shapes(name: str, position: str) -> None:
     cells = bin_integrals(density, bins, bins, (32, 32))
     assert blur < 1e-3
     family.chi_squared(histogram(*coordinates, bins, bins), cells * N, f"{name} {position}")
-    twin = probe.shape_pdf(kind, shape, drawn.wi)
+    twin = shapes.pdf(kind, shape, drawn.wi)
     hit = twin > 0
     assert (~hit).mean() <= 4 * blur + 5 / N
     assert relative_error(drawn.pdf[hit], twin[hit]).max() <= 64 * ROUNDING / skew
-    assert not probe.shape_pdf(kind, shape, -drawn.wi).any()
+    assert not shapes.pdf(kind, shape, -drawn.wi).any()
 
 
 @pytest.mark.parametrize("position", POSITIONS)
@@ -245,9 +245,9 @@ def test_flat_shapes_end_at_their_edges(name: str, position: str) -> None:
     kind = SHAPES[name]
     shape, centre, half_x, half_y, _ = placed(kind, position)
     t = (np.arange(50) + 0.5) / 50
-    if kind == probe.ELLIPSE:
+    if kind == shapes.ELLIPSE:
         a, b = np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)
-    elif kind == probe.RECTANGLE:
+    elif kind == shapes.RECTANGLE:
         a, b = np.r_[2 * t - 1, 2 * t - 1, t * 0 + 1, t * 0 - 1], np.r_[t * 0 + 1, t * 0 - 1, 2 * t - 1, 2 * t - 1]
     else:
         a, b = np.r_[2 * t - 1, t, -t], np.r_[t * 0 - 1, 1 - 2 * t, 1 - 2 * t]
@@ -255,7 +255,7 @@ def test_flat_shapes_end_at_their_edges(name: str, position: str) -> None:
     for scale, inside in ((0.99, True), (1.01, False)):
         points = centre + scale * edge
         wi = points / np.linalg.norm(points, axis=1, keepdims=True)
-        assert ((probe.shape_pdf(kind, shape, wi) > 0) == inside).all()
+        assert ((shapes.pdf(kind, shape, wi) > 0) == inside).all()
 
 
 def solid_angle_of_triangle(a: Array, b: Array, c: Array) -> mpmath.mpf:
@@ -273,12 +273,12 @@ def solid_angle_of_triangle(a: Array, b: Array, c: Array) -> mpmath.mpf:
 
 @pytest.mark.parametrize("position", POSITIONS)
 def test_solid_angle_of_a_rectangle(position: str) -> None:
-    shape, *_ = placed(probe.RECTANGLE, position)
+    shape, *_ = placed(shapes.RECTANGLE, position)
     corner, x, y = shape[:3], shape[3:6], shape[6:]
     exact = solid_angle_of_triangle(corner, corner + x, corner + x + y)
     exact += solid_angle_of_triangle(corner, corner + x + y, corner + y)
-    assert abs(probe.solid_angle(shape) - exact) <= 64 * 2.0**-53 * 2 * np.pi
-    drawn = probe.shape_sample(probe.RECTANGLE, shape, probe.uniform(7, 10))
+    assert abs(shapes.solid_angle(shape) - exact) <= 64 * 2.0**-53 * 2 * np.pi
+    drawn = shapes.sample(shapes.RECTANGLE, shape, sampling.uniform(7, 10))
     if exact > 1e-7:
         assert drawn.pdf[0] == pytest.approx(float(1 / exact), rel=2 * ROUNDING + 1e-14 / float(exact))
         assert np.ptp(drawn.pdf) == 0
@@ -292,18 +292,18 @@ def test_from_the_plane_of_the_shape(name: str) -> None:
         x, y, _ = TILT.T
         centre = x * offset[0] + y * offset[1]
         shape = {
-            probe.RECTANGLE: [centre - x - y, 2 * x, 2 * y],
-            probe.ELLIPSE: [centre, x, y],
-            probe.TRIANGLE: [centre - x - y, centre + x - y, centre + y],
+            shapes.RECTANGLE: [centre - x - y, 2 * x, 2 * y],
+            shapes.ELLIPSE: [centre, x, y],
+            shapes.TRIANGLE: [centre - x - y, centre + x - y, centre + y],
         }[kind]
-        drawn = probe.shape_sample(kind, np.concatenate(shape), probe.uniform(8, 1000))
+        drawn = shapes.sample(kind, np.concatenate(shape), sampling.uniform(8, 1000))
         # Rounding may leave a cosine of 1e-17, hence an enormous density, but nothing that is no number.
         assert np.isfinite(drawn.pdf).all()
         assert (drawn.pdf[drawn.found] > 1e6).all() or offset == (0.1, 0.1)
         assert np.isfinite(drawn.wi).all()
-    assert not probe.shape_sample(kind, [0, 0, 0, 1, 0, 0, 0, 1, 0], probe.uniform(9, 100)).found.any()
+    assert not shapes.sample(kind, [0, 0, 0, 1, 0, 0, 0, 1, 0], sampling.uniform(9, 100)).found.any()
 
 
 def test_degenerate_triangle() -> None:
-    assert not probe.shape_sample(probe.TRIANGLE, [0, 0, 1, 1, 0, 1, 2, 0, 1], probe.uniform(9, 100)).found.any()
-    assert not probe.shape_pdf(probe.TRIANGLE, [0, 0, 1, 1, 0, 1, 2, 0, 1], [[0, 0, 1]]).any()
+    assert not shapes.sample(shapes.TRIANGLE, [0, 0, 1, 1, 0, 1, 2, 0, 1], sampling.uniform(9, 100)).found.any()
+    assert not shapes.pdf(shapes.TRIANGLE, [0, 0, 1, 1, 0, 1, 2, 0, 1], [[0, 0, 1]]).any()

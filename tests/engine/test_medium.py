@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.special import exp1
 
-from tests.engine import probe
-from tests.engine.probe import Array
+from tests.engine.probe import medium, sampling
+from tests.engine.probe.call import Array
 from tests.engine.significance import ROUNDING, Family, double, relative_error, single
 
 family = Family(size=88)
@@ -52,26 +52,26 @@ def edges_of(sigma: tuple[float, ...], beta: tuple[float, ...], t_max: float) ->
 
 
 def numbers(seed: int) -> tuple[Array, Array]:
-    return probe.uniform(seed, N)[:, 0], probe.random_bits(seed + 1, N)
+    return sampling.uniform(seed, N)[:, 0], sampling.random_bits(seed + 1, N)
 
 
 @pytest.mark.parametrize("name", MEDIA)
 def test_free_flight(name: str) -> None:
     """Distances follow the pdf, passing its probability; both kinds of weights have the means they must."""
     sigma_a, sigma_s, beta, t_max = MEDIA[name]
-    flights = probe.free_flight(sigma_a, sigma_s, beta, t_max, *numbers(len(name)))
+    flights = medium.free_flight(sigma_a, sigma_s, beta, t_max, *numbers(len(name)))
     hit = flights.scattered
     assert (flights.t[~hit] == single(t_max)).all()
     assert (flights.t[hit] < t_max).all()
 
     edges = edges_of(sigma_s, beta, t_max)
-    cells = density_bins(edges, double(probe.free_flight_pdf(sigma_a, sigma_s, beta, nodes_of(edges))))
+    cells = density_bins(edges, double(medium.free_flight_pdf(sigma_a, sigma_s, beta, nodes_of(edges))))
     counts = np.append(np.histogram(flights.t[hit], edges)[0], (~hit).sum())
     passing = flights.pdf[~hit]
     if cells.sum() * N > 5:  # in thin media one in millions scatters
         family.chi_squared(counts, np.append(cells, 1 - cells.sum()) * N, f"free flight in {name}")
     if hit.any():
-        pdf = probe.free_flight_pdf(sigma_a, sigma_s, beta, flights.t[hit])
+        pdf = medium.free_flight_pdf(sigma_a, sigma_s, beta, flights.t[hit])
         assert relative_error(flights.pdf[hit], pdf).max() <= 16 * ROUNDING * 45
     if (~hit).any():
         assert np.ptp(passing) == 0
@@ -105,14 +105,14 @@ def test_collision(name: str) -> None:
     """Distances follow the pdf on the segment; weights estimate what scatters there, in grey without spread."""
     sigma_a, sigma_s, beta, t_max = MEDIA[name]
     sigma_t = tuple(a + s for a, s in zip(sigma_a, sigma_s, strict=True))
-    collisions = probe.collision(sigma_a, sigma_s, beta, t_max, *numbers(100 + len(name)))
+    collisions = medium.collision(sigma_a, sigma_s, beta, t_max, *numbers(100 + len(name)))
     assert ((collisions.t >= 0) & (collisions.t <= single(t_max))).all()
 
     rates = tuple(t if s > 0 else 0 for t, s in zip(sigma_t, sigma_s, strict=True))
     edges = edges_of(rates, beta, t_max)
-    cells = density_bins(edges, double(probe.collision_pdf(sigma_a, sigma_s, beta, t_max, nodes_of(edges))))
+    cells = density_bins(edges, double(medium.collision_pdf(sigma_a, sigma_s, beta, t_max, nodes_of(edges))))
     family.chi_squared(np.histogram(collisions.t, edges)[0], cells * N, f"collision in {name}")
-    pdf = probe.collision_pdf(sigma_a, sigma_s, beta, t_max, collisions.t)
+    pdf = medium.collision_pdf(sigma_a, sigma_s, beta, t_max, collisions.t)
     assert relative_error(collisions.pdf, pdf).max() <= 16 * ROUNDING * 45
 
     exact = [s / t * -np.expm1(-t * t_max) if s > 0 else 0.0 for s, t in zip(sigma_s, sigma_t, strict=True)]
@@ -134,7 +134,7 @@ def test_collision_of_any_optical_depth(tau: float) -> None:
     """DESIGN's hazard: the truncated exponential and 1 - e^-tau in float32, against mpmath."""
     mpmath.mp.dps = 40
     bits = [0, 1 << 20, 1 << 40, 1 << 60, 1 << 62, (1 << 63) + 5, (1 << 64) - (1 << 55), (1 << 64) - 1]
-    s = probe.collision(0, tau, 1, 1, np.zeros(len(bits), np.float32), np.array(bits, np.uint64))
+    s = medium.collision(0, tau, 1, 1, np.zeros(len(bits), np.float32), np.array(bits, np.uint64))
     depth = mpmath.mpf(float(single(tau)))
     for b, t, weight in zip(bits, s.t, s.weight[:, 0], strict=True):
         exact = -mpmath.log1p((mpmath.mpf(b) + 0.5) / 2**64 * mpmath.expm1(-depth)) / depth
@@ -146,30 +146,30 @@ def test_transmittance() -> None:
     t = single([0, 1e-8, 0.5, 3, 80, 1000, INF])
     sigma = (0.0, 0.25, 2.0)
     exact = np.exp(-np.outer(np.minimum(double(t), 1e300), sigma))
-    got = probe.transmittance((0, 0.05, 1), (0, 0.2, 1), t)
+    got = medium.transmittance((0, 0.05, 1), (0, 0.2, 1), t)
     assert np.abs(got - exact).max() <= 2 * ROUNDING
     assert got[-1].tolist() == [1, 0, 0]
-    assert probe.transmittance(0, 0, t).tolist() == [[1, 1, 1]] * len(t)
-    assert probe.transmittance(0, 0.5, [200])[0, 0] > 0  # beyond 87: subnormal, not lost
-    assert probe.transmittance(0, 1, [1e-6])[0, 0] == single(np.exp(-1e-6))
+    assert medium.transmittance(0, 0, t).tolist() == [[1, 1, 1]] * len(t)
+    assert medium.transmittance(0, 0.5, [200])[0, 0] > 0  # beyond 87: subnormal, not lost
+    assert medium.transmittance(0, 1, [1e-6])[0, 0] == single(np.exp(-1e-6))
 
 
 def test_nothing_to_sample() -> None:
     """No scattering, no throughput, no length: no distance, no NaN; an absorber is exact."""
     u, bits = numbers(3)
-    absorber = probe.free_flight((1, 2, 0), 0, 1, 0.5, u, bits)
+    absorber = medium.free_flight((1, 2, 0), 0, 1, 0.5, u, bits)
     assert not absorber.scattered.any()
     assert absorber.weight[0] == pytest.approx(np.exp([-0.5, -1, 0]), rel=2 * ROUNDING)
     assert (absorber.pdf == 1).all()
-    assert probe.free_flight((1, 0, 0), 0, 1, INF, u[:1], bits[:1]).weight.tolist() == [[0, 1, 1]]
-    assert not probe.free_flight(1, 1, 0, 1, u, bits).scattered.any()
-    assert not probe.free_flight((0, 0, 1), 1, 1, 0, u, bits).scattered.any()
+    assert medium.free_flight((1, 0, 0), 0, 1, INF, u[:1], bits[:1]).weight.tolist() == [[0, 1, 1]]
+    assert not medium.free_flight(1, 1, 0, 1, u, bits).scattered.any()
+    assert not medium.free_flight((0, 0, 1), 1, 1, 0, u, bits).scattered.any()
     for sigma_s, beta, t_max in ((0, 1, 1), (1, 0, 1), (1, 1, 0), ((1, 2, 3), 1, 0)):
-        nothing = probe.collision((1, 1, 1), sigma_s, beta, t_max, u[:100], bits[:100])
+        nothing = medium.collision((1, 1, 1), sigma_s, beta, t_max, u[:100], bits[:100])
         assert not nothing.weight.any()
         assert not nothing.pdf.any()
     for scale in (1e-38, 1e-30, 1e30):  # overflow of t or of sigma t
-        for sampled in (probe.free_flight, probe.collision):
+        for sampled in (medium.free_flight, medium.collision):
             s = sampled((scale, 0, 0), (scale, 2 * scale, 0), (1, 1, 1), INF, u, bits)
             assert np.isfinite(s.weight).all()
             assert np.isfinite(s.pdf).all()
@@ -179,9 +179,9 @@ def test_the_sampler_feeds_both() -> None:
     """Through a Sampler, in both kinds of media: the same law."""
     _, keys = numbers(9)
     for sigma_s in ((0.7,) * 3, (0.5, 0.7, 1.0)):
-        flights = probe.free_flight(0, sigma_s, 1, 1, keys, keys, own=True)
+        flights = medium.free_flight(0, sigma_s, 1, 1, keys, keys, own=True)
         family.mean(flights.scattered, -np.expm1(-double(sigma_s)).mean(), "scattering through a sampler")
-        collisions = probe.collision(0, sigma_s, 1, INF, keys, keys, own=True)
+        collisions = medium.collision(0, sigma_s, 1, INF, keys, keys, own=True)
         share = double(sigma_s) / sigma_s  # albedo 1 and no end: equal shares
         family.mean(collisions.t, (share / sigma_s).mean(), "distance through a sampler")
 
@@ -209,8 +209,8 @@ def exact_equiangular(a: float, b: float, h: float) -> tuple[mpmath.mpf, mpmath.
 def test_equiangular_inverts_the_angle(a: float, b: float, h: float) -> None:
     start, angle, z = exact_equiangular(a, b, h)
     u = single([0, 2.0**-24, 1e-4, 0.1, 0.3, 0.5, 0.7, 0.9, 0.9999, 1 - 2.0**-24])
-    t = probe.equiangular(a, b, h, u)
-    pdf = probe.equiangular_pdf(a, b, h, t)
+    t = medium.equiangular(a, b, h, u)
+    pdf = medium.equiangular_pdf(a, b, h, t)
     for fraction, got, density in zip(u, t, pdf, strict=True):
         theta = start + mpmath.mpf(float(fraction)) * angle
         exact = z * mpmath.tan(theta)
@@ -225,21 +225,21 @@ def test_equiangular_inverts_the_angle(a: float, b: float, h: float) -> None:
 def test_equiangular_follows_its_pdf(a: float, b: float, h: float) -> None:
     """In bins of equal angle, which h / ((h^2 + t^2) angle) makes equal."""
     start, angle, z = (float(v) for v in exact_equiangular(a, b, h))
-    t = double(probe.equiangular(a, b, h, probe.uniform(5, N)[:, 0]))
+    t = double(medium.equiangular(a, b, h, sampling.uniform(5, N)[:, 0]))
     assert ((t >= single(a)) & (t <= single(b))).all()
     # The angle from the nearer end of the turn, so that the far tail keeps its digits; edges likewise.
     from_end, first = np.arctan2(z, t), float(np.arctan2(z, double(single(b))))
     counts = np.histogram((from_end - first) / angle, 100, (0, 1))[0]
     family.chi_squared(counts, np.full(100, N / 100), f"equiangular {a}, {b}, {h}")
     assert start + angle <= np.pi / 2 + 1e-9
-    assert probe.equiangular_pdf(a, b, h, [a - 1.0]).tolist() == [0]
+    assert medium.equiangular_pdf(a, b, h, [a - 1.0]).tolist() == [0]
     if b < INF:
-        assert probe.equiangular_pdf(a, b, h, [b + 1.0]).tolist() == [0]
+        assert medium.equiangular_pdf(a, b, h, [b + 1.0]).tolist() == [0]
 
 
 def test_equiangular_of_an_empty_segment() -> None:
-    assert probe.equiangular_pdf(1, 1, 0.5, [1]).tolist() == [0]
-    assert probe.equiangular(1, 1, 0.5, [0.3]).tolist() == [1]
+    assert medium.equiangular_pdf(1, 1, 0.5, [1]).tolist() == [0]
+    assert medium.equiangular(1, 1, 0.5, [0.3]).tolist() == [1]
 
 
 def test_airlight_by_both_densities() -> None:
@@ -248,11 +248,11 @@ def test_airlight_by_both_densities() -> None:
     # int_0^inf e^(-2 s t) / (1 + t)^2 dt = 1 - 2 s e^(2 s) E1(2 s)
     exact = 1 - 2 * sigma * np.exp(2 * sigma) * exp1(2 * sigma)
     u, bits = numbers(11)
-    collisions = probe.collision(0, sigma, 1, INF, u, bits)
+    collisions = medium.collision(0, sigma, 1, INF, u, bits)
     t = double(collisions.t)
     estimate = double(collisions.weight[:, 0]) / sigma * np.exp(-sigma * t) / (1 + t) ** 2
     family.mean(estimate, exact, "by exponential distances")
     # Behind the light the offset runs from 1; as h -> 0 the density is 1 / t^2 and the estimate e^(-2 s t) alone.
-    offset = probe.equiangular(1, INF, 1e-6, u)
-    pdf, t = double(probe.equiangular_pdf(1, INF, 1e-6, offset)), double(offset)
+    offset = medium.equiangular(1, INF, 1e-6, u)
+    pdf, t = double(medium.equiangular_pdf(1, INF, 1e-6, offset)), double(offset)
     family.mean(np.exp(-2 * sigma * (t - 1)) / t**2 / pdf, exact, "by equiangular distances")

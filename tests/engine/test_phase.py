@@ -5,8 +5,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from tests.engine import probe
-from tests.engine.probe import Array
+from tests.engine.probe import phase, sampling
+from tests.engine.probe.call import Array
 from tests.engine.significance import ROUNDING, Family, double, histogram, relative_error, single
 
 family = Family(size=25)
@@ -35,7 +35,7 @@ def uniform_coordinate(g: float, before: Array, after: Array) -> Array:
 def test_directions_follow_the_phase_function(g: float) -> None:
     """The exact cumulative distribution of the sampled cosines is uniform, and so is the azimuth."""
     before = double(single(BEFORE))
-    after, pdf = probe.phase_sample(g, BEFORE, probe.uniform(3, N))
+    after, pdf = phase.sample(g, BEFORE, sampling.uniform(3, N))
     exact_g = float(single(g))
     w = double(after)
     assert np.abs((w**2).sum(1) - 1).max() <= 8 * ROUNDING
@@ -46,7 +46,7 @@ def test_directions_follow_the_phase_function(g: float) -> None:
     if abs(g) > 1e-4:
         family.mean(w @ before, exact_g, f"mean cosine of g = {g}", 8 * ROUNDING)
     # The twin sees the direction rounded to float32, which is 1e-7 of a peak 1 - |g| wide.
-    twin = probe.phase_of_directions(g, BEFORE, after)
+    twin = phase.of_directions(g, BEFORE, after)
     assert relative_error(pdf, twin).max() <= 32 * ROUNDING / (1 - abs(g))
 
 
@@ -56,12 +56,12 @@ def test_values(g: float) -> None:
     mpmath.mp.dps = 40
     exact_g = mpmath.mpf(float(single(g)))
     cosines = single([-1, -0.999, -0.5, 0, 0.3, 0.9, 0.999, 1])
-    for c, got in zip(cosines, probe.phase_of_cosine(g, cosines), strict=True):
+    for c, got in zip(cosines, phase.of_cosine(g, cosines), strict=True):
         exact = exact_phase(exact_g, mpmath.mpf(float(c)))
         assert abs((float(got) - exact) / exact) <= 12 * ROUNDING
     angles = np.array([0, 1e-4, 1e-2, 0.5, 2, 3, 3.14])
     after = single(np.stack([np.sin(angles), 0 * angles, np.cos(angles)], axis=1))
-    for w, got in zip(after, probe.phase_of_directions(g, [0, 0, 1], after), strict=True):
+    for w, got in zip(after, phase.of_directions(g, [0, 0, 1], after), strict=True):
         x, z = mpmath.mpf(float(w[0])), mpmath.mpf(float(w[2]))
         # 1 -+ cos of the rounded vectors as they are, without supposing unit length.
         tail = (x * x + (z - (1 if g >= 0 else -1)) ** 2) / 2
@@ -74,18 +74,18 @@ def test_values(g: float) -> None:
     ratio = 1 + 2 / narrow
     tail, slope = np.minimum(2, narrow * (ratio**t - 1)), narrow * ratio**t * np.log(ratio)
     w = single(np.stack([np.sqrt(tail * (2 - tail)), 0 * t, (1 - tail) * (1 if g >= 0 else -1)], axis=1))
-    values = double(probe.phase_of_directions(g, [0, 0, 1], w))
+    values = double(phase.of_directions(g, [0, 0, 1], w))
     assert 2 * np.pi * (weights / 2 * values * slope).sum() == pytest.approx(1, abs=1e-5)
 
 
 def test_convention() -> None:
     """g > 0 goes on forward: the cosine is between the directions of propagation."""
-    after, _ = probe.phase_sample(0.8, [0, 0, 1], probe.uniform(1, N))
+    after, _ = phase.sample(0.8, [0, 0, 1], sampling.uniform(1, N))
     family.mean(after[:, 2], float(single(0.8)), "forward", 8 * ROUNDING)
-    assert probe.phase_of_cosine(0.8, [1])[0] > probe.phase_of_cosine(0.8, [-1])[0]
+    assert phase.of_cosine(0.8, [1])[0] > phase.of_cosine(0.8, [-1])[0]
 
 
 @pytest.mark.parametrize("axis", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0)])
 def test_every_frame(axis: tuple[int, int, int]) -> None:
-    after, _ = probe.phase_sample(0.5, axis, probe.uniform(2, N))
+    after, _ = phase.sample(0.5, axis, sampling.uniform(2, N))
     family.mean(double(after) @ axis, 0.5, f"about {axis}")

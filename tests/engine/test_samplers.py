@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import ArrayLike
 from scipy import stats
 
-from tests.engine import probe
-from tests.engine.probe import Array
+from tests.engine.probe import bsdf, sampling
+from tests.engine.probe.call import Array
 from tests.engine.significance import ROUNDING, Family, bin_integrals, histogram, relative_error
 
 family = Family(size=43)
@@ -28,18 +28,18 @@ def test_numbers_are_uniform_and_independent_along_each_key(key: str) -> None:
     sequence = np.arange(N)
     keys: dict[str, ArrayLike] = {"x": 3, "y": 5, "replicate": 1, "index": 7}
     if key == "skip":
-        drawn = probe.sampler(11, sequence, 5, 1, 7, skip=0), probe.sampler(11, sequence, 5, 1, 7, skip=1)
+        drawn = sampling.sampler(11, sequence, 5, 1, 7, skip=0), sampling.sampler(11, sequence, 5, 1, 7, skip=1)
         first, second, pairs = drawn[0].next_1d, drawn[1].next_1d, drawn[0].next_2d
     else:
         x, y, replicate, index = ({**keys, key: sequence}[name] for name in keys)
-        numbers = probe.sampler(11, x, y, replicate, index)
+        numbers = sampling.sampler(11, x, y, replicate, index)
         first, second, pairs = numbers.next_1d[:-1:2], numbers.next_1d[1::2], numbers.next_2d
     family.chi_squared(histogram(first, second, 16, 16), unit_grid() * len(first), f"pairs along {key}")
     family.chi_squared(histogram(pairs[:, 0], pairs[:, 1], 16, 16), unit_grid() * len(pairs), f"next_2d along {key}")
 
 
 def test_the_seed_gives_other_numbers() -> None:
-    a, b = (probe.sampler(seed, np.arange(N), 0, 0, 0) for seed in (0, 1))
+    a, b = (sampling.sampler(seed, np.arange(N), 0, 0, 0) for seed in (0, 1))
     family.chi_squared(histogram(a.next_1d, b.next_1d, 16, 16), unit_grid() * N, "pairs along seed")
     family.chi_squared(
         histogram(a.stratified_1d, b.stratified_1d, 16, 16), unit_grid() * N, "stratified pairs along seed"
@@ -47,7 +47,7 @@ def test_the_seed_gives_other_numbers() -> None:
 
 
 def test_numbers_stay_below_one() -> None:
-    u = probe.sampler(0, np.arange(1 << 22), 0, 0, 0)
+    u = sampling.sampler(0, np.arange(1 << 22), 0, 0, 0)
     for values in (u.next_1d, u.next_2d, u.stratified_1d, u.stratified_2d):
         assert values.min() >= 0
         assert values.max() < 1
@@ -58,7 +58,7 @@ def test_mix_is_that_of_splitmix64() -> None:
     """The first numbers of SplitMix64 from seed 0, as its authors' program prints them."""
     golden = 0x9E3779B97F4A7C15
     published = [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F]
-    assert [probe.mix64((i + 1) * golden % 2**64) for i in range(3)] == published
+    assert [sampling.mix64((i + 1) * golden % 2**64) for i in range(3)] == published
 
 
 def test_hash_avalanches() -> None:
@@ -67,20 +67,20 @@ def test_hash_avalanches() -> None:
     flips = np.zeros(64)
     inputs = rng.integers(0, 1 << 63, 40)
     for a in map(int, inputs):
-        base = probe.hash64(a, 9)
+        base = sampling.hash64(a, 9)
         for bit in range(64):
-            changed = base ^ probe.hash64(a ^ (1 << bit), 9)
+            changed = base ^ sampling.hash64(a ^ (1 << bit), 9)
             flips += [(changed >> k) & 1 for k in range(64)]
     trials = len(inputs) * 64
     family.chi_squared(np.stack([flips, trials - flips]).T, np.full((64, 2), trials / 2), "avalanche")
-    assert probe.hash64(1, 2) != probe.hash64(2, 1)
+    assert sampling.hash64(1, 2) != sampling.hash64(2, 1)
 
 
 # ---- Exponential variates ----
 
 
 def test_exponential_distribution() -> None:
-    e = probe.sampler(2, np.arange(N), 0, 0, 0).next_exponential.astype(np.float64)
+    e = sampling.sampler(2, np.arange(N), 0, 0, 0).next_exponential.astype(np.float64)
     family.chi_squared(np.histogram(-np.expm1(-e), 100, (0, 1))[0], np.full(100, N / 100), "exponential")
     family.mean(e, 1, "mean of the exponential")
 
@@ -99,7 +99,7 @@ def test_exponential_inversion_is_exact_to_rounding(tau: float | None) -> None:
     mpmath.mp.dps = 50
     t = mpmath.inf if tau is None else mpmath.mpf(float(np.float32(tau)))
     exact = [-mpmath.log1p(-(mpmath.mpf(b) + 0.5) / 2**64 * (1 - mpmath.exp(-t))) for b in bits]
-    got = probe.exponential(engine_bits, tau)
+    got = sampling.exponential(engine_bits, tau)
     errors = [abs((float(g) - e) / e) for g, e in zip(got, exact, strict=True)]
     # Conditioning of the upper half: an error of v is multiplied by at most 1/(E (1/v - 1)) < 1.5 there.
     assert max(errors) <= 6 * ROUNDING
@@ -121,14 +121,14 @@ def test_every_aligned_block_is_a_net(log_n: int, stratum: int) -> None:
     n = 1 << log_n
     for seed, block in ((0, 0), (1, 0), (2, 5), (3, 2**20 + 3)):
         index = np.arange(block * n, (block + 1) * n)
-        points = probe.sampler(seed, 17, 4, 2, index, stratum=stratum).stratified_2d.astype(np.float64)
+        points = sampling.sampler(seed, 17, 4, 2, index, stratum=stratum).stratified_2d.astype(np.float64)
         for split in range(log_n + 1):
             counts = histogram(points[:, 0], points[:, 1], 1 << split, 1 << (log_n - split))
             assert (counts == 1).all()
 
 
 def test_one_dimension_and_bits_are_the_first_coordinate() -> None:
-    p = probe.sampler(3, 1, 2, 3, np.arange(64), stratum=9)
+    p = sampling.sampler(3, 1, 2, 3, np.arange(64), stratum=9)
     assert (p.stratified_1d == p.stratified_2d[:, 0]).all()
     assert ((p.stratified_bits >> np.uint64(40)).astype(np.float64) * 2.0**-24 == p.stratified_1d).all()
     assert len(np.unique(p.stratified_bits & np.uint64(0xFFFFFFFF))) == 64
@@ -136,7 +136,7 @@ def test_one_dimension_and_bits_are_the_first_coordinate() -> None:
 
 @pytest.mark.parametrize("index", [0, 1, 6])
 def test_scrambled_points_are_uniform_over_scrambles(index: int) -> None:
-    p = probe.sampler(4, np.arange(N), 0, 0, index).stratified_2d
+    p = sampling.sampler(4, np.arange(N), 0, 0, index).stratified_2d
     family.chi_squared(histogram(p[:, 0], p[:, 1], 16, 16), unit_grid() * N, f"point {index} over pixels")
 
 
@@ -144,11 +144,11 @@ def test_scrambled_points_are_uniform_over_scrambles(index: int) -> None:
 def test_replicates_sets_and_pixels_are_independent(axis: int) -> None:
     """The same index under two keys makes independent pairs."""
     x = np.arange(N)
-    base = probe.sampler(5, x, 0, 0, 3, stratum=2).stratified_2d[:, axis]
+    base = sampling.sampler(5, x, 0, 0, 3, stratum=2).stratified_2d[:, axis]
     others = {
-        "replicates": probe.sampler(5, x, 0, 1, 3, stratum=2),
-        "sets": probe.sampler(5, x, 0, 0, 3, stratum=3),
-        "rows": probe.sampler(5, x, 1, 0, 3, stratum=2),
+        "replicates": sampling.sampler(5, x, 0, 1, 3, stratum=2),
+        "sets": sampling.sampler(5, x, 0, 0, 3, stratum=3),
+        "rows": sampling.sampler(5, x, 1, 0, 3, stratum=2),
     }
     for name, other in others.items():
         pairs = histogram(base, other.stratified_2d[:, axis], 16, 16)
@@ -158,8 +158,8 @@ def test_replicates_sets_and_pixels_are_independent(axis: int) -> None:
 def test_sets_are_shuffled_against_each_other() -> None:
     """Two sets with equal shuffles would pair their points along a structure; over many indices, none shows."""
     index = np.arange(1 << 16)
-    a = probe.sampler(6, 0, 0, 0, index, stratum=0).stratified_2d[:, 0]
-    b = probe.sampler(6, 0, 0, 0, index, stratum=1).stratified_2d[:, 0]
+    a = sampling.sampler(6, 0, 0, 0, index, stratum=0).stratified_2d[:, 0]
+    b = sampling.sampler(6, 0, 0, 0, index, stratum=1).stratified_2d[:, 0]
     counts = histogram(a, b, 16, 16)
     # Not independent draws (each margin is exactly even), so chi-squared has 15^2 degrees of freedom.
     expected = len(index) / 256
@@ -176,17 +176,17 @@ def turn(x: Array, y: Array) -> Array:
 
 
 def test_uniform_sphere() -> None:
-    w, pdf = probe.warp(probe.UNIFORM_SPHERE, probe.uniform(21, N))
+    w, pdf = sampling.warp(sampling.UNIFORM_SPHERE, sampling.uniform(21, N))
     assert relative_error((w.astype(np.float64) ** 2).sum(1), np.ones(N)).max() <= 12 * ROUNDING
     family.chi_squared(histogram((w[:, 2] + 1) / 2, turn(w[:, 0], w[:, 1]), 16, 16), unit_grid() * N, "sphere")
     assert relative_error(pdf, np.full(N, 1 / (4 * np.pi))).max() <= 2 * ROUNDING
 
 
 def test_cosine_hemisphere() -> None:
-    w, pdf = probe.warp(probe.COSINE_HEMISPHERE, probe.uniform(22, N))
+    w, pdf = sampling.warp(sampling.COSINE_HEMISPHERE, sampling.uniform(22, N))
     assert (w[:, 2] >= 0).all()
     cell = bin_integrals(
-        lambda z, phi: 2 * np.pi * probe.bsdf_eval([probe.Lobe(probe.LAMBERT)], (0, 0, 1), direction(z, phi))[1], 16, 16
+        lambda z, phi: 2 * np.pi * bsdf.evaluate([bsdf.Lobe(bsdf.LAMBERT)], (0, 0, 1), direction(z, phi))[1], 16, 16
     )
     family.chi_squared(histogram(w[:, 2], turn(w[:, 0], w[:, 1]), 16, 16), cell * N, "cosine hemisphere")
     assert relative_error(pdf, np.maximum(w[:, 2], 1e-30).astype(np.float64) / np.pi)[w[:, 2] > 0].max() <= 3 * ROUNDING
@@ -198,7 +198,7 @@ def direction(z: Array, phi: Array) -> Array:
 
 
 def test_disk() -> None:
-    w, pdf = probe.warp(probe.DISK, probe.uniform(23, N))
+    w, pdf = sampling.warp(sampling.DISK, sampling.uniform(23, N))
     radius2 = (w.astype(np.float64) ** 2).sum(1)
     assert radius2.max() <= 1 + 12 * ROUNDING
     family.chi_squared(histogram(radius2, turn(w[:, 0], w[:, 1]), 16, 16), unit_grid() * N, "disk")
@@ -206,7 +206,7 @@ def test_disk() -> None:
 
 
 def test_triangle() -> None:
-    b, pdf = probe.warp(probe.TRIANGLE_BARYCENTRICS, probe.uniform(24, N))
+    b, pdf = sampling.warp(sampling.TRIANGLE_BARYCENTRICS, sampling.uniform(24, N))
     assert (b >= 0).all()
     assert np.abs(b.astype(np.float64).sum(1) - 1).max() <= 2 * ROUNDING
     # (1 - b0)^2 and b1/(b1 + b2) are uniform over a triangle.
@@ -218,7 +218,7 @@ def test_triangle() -> None:
 @pytest.mark.parametrize("one_minus_cos_max", [2.0, 1.0, 0.3, 1e-6, 1e-12])
 def test_cone(one_minus_cos_max: float) -> None:
     """Also a cone of a microradian: there the sine tells the angle, 1 - z has no digits."""
-    w, pdf = probe.warp(probe.CONE, probe.uniform(25, N), one_minus_cos_max)
+    w, pdf = sampling.warp(sampling.CONE, sampling.uniform(25, N), one_minus_cos_max)
     sine2 = np.float64(w[:, 0]) ** 2 + np.float64(w[:, 1]) ** 2
     z = np.float64(w[:, 2])
     omc = np.where(z > 0.5, sine2 / (1 + np.sqrt(np.maximum(0, 1 - sine2))), 1 - z)
@@ -236,7 +236,7 @@ def test_one_minus_cos_of_a_distant_sphere(s: float) -> None:
     mpmath.mp.dps = 60
     m = mpmath.mpf(float(np.float32(s)))
     exact = 1 - mpmath.sqrt(1 - m * m)
-    assert abs((probe.one_minus_cos(s) - exact) / exact) <= 6 * ROUNDING
+    assert abs((sampling.one_minus_cos(s) - exact) / exact) <= 6 * ROUNDING
 
 
 # ---- Tables ----
@@ -244,7 +244,7 @@ def test_one_minus_cos_of_a_distant_sphere(s: float) -> None:
 
 def test_alias_table_draws_its_weights() -> None:
     weights = [0, 1, 2.5, 0, 1e-3, 30, 0.5, 0, 7]
-    drawn = probe.alias_table(weights, probe.uniform(31, N))
+    drawn = sampling.alias_table(weights, sampling.uniform(31, N))
     assert drawn is not None
     index, pmf, every, rest = drawn
     exact = np.array(weights) / np.sum(weights)
@@ -264,17 +264,17 @@ def test_alias_table_of_a_million() -> None:
     rng = np.random.default_rng(32)
     weights = rng.exponential(size=1_000_000) ** 2 * (rng.random(1_000_000) > 0.1)
     draws = 10_000_000
-    drawn = probe.alias_table(weights, probe.uniform(33, draws))
+    drawn = sampling.alias_table(weights, sampling.uniform(33, draws))
     assert drawn is not None
     family.chi_squared(np.bincount(drawn[0], minlength=len(weights)), drawn[2].astype(np.float64) * draws, "a million")
 
 
 def test_alias_table_extremes() -> None:
-    u = probe.uniform(34, 1000)
-    assert probe.alias_table([0, 0, 0], u) is None
-    assert probe.alias_table([], u) is None
+    u = sampling.uniform(34, 1000)
+    assert sampling.alias_table([0, 0, 0], u) is None
+    assert sampling.alias_table([], u) is None
     for weights, only in (([5.0], 0), ([0, 0, 1e-300], 2), ([0, 1e300, 0, 0], 1)):
-        drawn = probe.alias_table(weights, u)
+        drawn = sampling.alias_table(weights, u)
         assert drawn is not None
         assert (drawn[0] == only).all()
         assert (drawn[1] == 1).all()
@@ -284,8 +284,8 @@ def test_distribution_2d_draws_its_density() -> None:
     rng = np.random.default_rng(35)
     weights = rng.exponential(size=(12, 20)).astype(np.float32)
     weights[3], weights[:, 7], weights[5, 5] = 0, 0, 400
-    u = probe.uniform(36, N)
-    drawn = probe.distribution_2d(weights, u)
+    u = sampling.uniform(36, N)
+    drawn = sampling.distribution_2d(weights, u)
     assert drawn is not None
     uv, pdf, twin, texels = drawn
     assert (pdf == twin).all()
@@ -309,7 +309,7 @@ def test_distribution_2d_is_exact_to_the_count() -> None:
     """Of all 2^24 numbers, the share that pdf claims falls into each column; a dim texel beside a sun keeps one."""
     weights = np.array([[1e9, 1e-9, 0, 3e8, 1]], np.float32)
     u = np.stack([np.arange(1 << 24) * 2.0**-24, np.zeros(1 << 24)], axis=1).astype(np.float32)
-    drawn = probe.distribution_2d(weights, u)
+    drawn = sampling.distribution_2d(weights, u)
     assert drawn is not None
     counts = np.bincount((drawn[0][:, 0] * 5).astype(int), minlength=5)
     exact = drawn[3][0].astype(np.float64) / 5 * 2.0**24
@@ -320,4 +320,4 @@ def test_distribution_2d_is_exact_to_the_count() -> None:
 
 
 def test_distribution_2d_of_black() -> None:
-    assert probe.distribution_2d(np.zeros((4, 4)), probe.uniform(1, 10)) is None
+    assert sampling.distribution_2d(np.zeros((4, 4)), sampling.uniform(1, 10)) is None

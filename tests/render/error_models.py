@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.engine.probe import ErrorEstimate, error_estimate
+from tests.engine.probe.film import ErrorEstimate, error_estimate
 
 Array = NDArray[Any]
 SIZE = 16

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from tests.engine.probe import fall_rate, student_quantile
+from tests.engine.probe.film import fall_rate, student_quantile
 from tests.render.error_models import (
     REPLICATES,
     SIZE,

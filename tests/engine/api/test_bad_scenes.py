@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bad values in the description of a scene: each is named in one line, and nothing is added."""
+
+import ctypes
+from ctypes import byref, c_double, c_float, c_uint32, c_void_p
+from typing import Any
+
+import numpy as np
+import pytest
+
+from addon.native import structs
+from tests.engine.api.misuse import (
+    ARGUMENT,
+    CONDUCTOR,
+    GLASS,
+    IDENTITY,
+    INFINITY,
+    LAMBERT,
+    LIGHT,
+    MIRROR,
+    MIX,
+    NAN,
+    NULL,
+    OK,
+    REPORT_METAL,
+    add_material,
+    changed,
+    mesh_desc,
+    new_mesh,
+    refused,
+)
+from tests.engine.library import engine, functions
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"format": 2}, "format"),
+        ({"vertex_count": 2}, "vert"),
+        ({"vertices": None}, "vertices"),
+        ({"triangle_count": 0}, "triangle"),
+        ({"triangles": None}, "triangle"),
+        ({"triangles": np.array([[0, 1, 3]], np.uint32)}, "3"),
+        ({"triangles": np.array([[0, 1, 0xFFFFFFFF]], np.uint32)}, "triangle"),
+        ({"vertices": np.array([[0, 0, NAN], [1, 0, 0], [0, 1, 0]])}, "vert"),
+        ({"vertices": np.array([[0, 0, INFINITY], [1, 0, 0], [0, 1, 0]])}, "vert"),
+        ({"normals": np.array([[0, 0, NAN], [1, 0, 0], [0, 1, 0]])}, "normal"),
+        ({"uvs": np.array([[0, NAN], [1, 0], [0, 1]])}, "uv"),
+        ({"vertex_count": 1 << 60}, "vert"),
+    ],
+)
+def test_bad_mesh(changes: dict[str, Any], word: str) -> None:
+    kept = {key: value.ctypes.data if isinstance(value, np.ndarray) else value for key, value in changes.items()}
+    out = c_void_p()
+    refused(functions().glimmer_mesh_create(byref(mesh_desc(**kept)), byref(out)), ARGUMENT, word)
+    assert not out
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "channels", "value"),
+    [(0, 1, 3, 1), (1, 0, 3, 1), (1, 1, 2, 1), (1, 1, 5, 1), (1, 1, 3, -1), (1, 1, 3, NAN), (1, 1, 3, INFINITY)],
+)
+def test_bad_image(width: int, height: int, channels: int, value: float) -> None:
+    out = c_void_p()
+    pixels = (c_float * 8)(*[value] * 8)
+    refused(functions().glimmer_image_create(width, height, channels, pixels, byref(out)), ARGUMENT, "image")
+    assert not out
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"type": 8}, "type"),
+        ({"type": -1}, "type"),
+        ({"type": LAMBERT, "color": (0.5, 1.5, 0.5)}, "albedo"),
+        ({"type": LAMBERT, "color": (0.5, -0.1, 0.5)}, "albedo"),
+        ({"type": LAMBERT, "color": (0.5, NAN, 0.5)}, "albedo"),
+        ({"type": MIRROR, "color": (2, 0, 0)}, "reflectance"),
+        ({"type": CONDUCTOR, "alpha": 1.5}, "alpha"),
+        ({"type": CONDUCTOR, "alpha": NAN}, "alpha"),
+        ({"type": CONDUCTOR, "eta": (0, 1, 1)}, "eta"),
+        ({"type": CONDUCTOR, "k": (1, -1, 1)}, "k"),
+        ({"type": CONDUCTOR, "use_f0": 1, "f0": (0, 0, 1.1)}, "f0"),
+        ({"type": CONDUCTOR, "use_f0": 1, "f90": (0, -0.1, 1)}, "f90"),
+        ({"type": CONDUCTOR, "masking": 3}, "masking"),
+        ({"type": GLASS, "ior": 0}, "ior"),
+        ({"type": GLASS, "ior": -1.5}, "ior"),
+        ({"type": GLASS, "ior": NAN}, "ior"),
+        ({"type": GLASS, "emission": (1, 0, 0)}, "emission"),
+        ({"type": LIGHT, "emission": (1, 0, 0)}, "emission"),
+        ({"type": NULL, "emission": (1, 0, 0)}, "emission"),
+        ({"type": LAMBERT, "emission": (-1, 0, 0)}, "emission"),
+        ({"type": LAMBERT, "emission": (INFINITY, 0, 0)}, "emission"),
+        ({"type": LIGHT, "color": (-1, 0, 0)}, "radiance"),
+        ({"type": LIGHT, "color": (INFINITY, 0, 0)}, "radiance"),
+        ({"type": REPORT_METAL, "alpha": -1}, "alpha"),
+        ({"type": MIX, "a": 0, "b": 99}, "99"),
+        ({"type": MIX, "a": 0, "b": 1, "weight": 1.5}, "weight"),
+        ({"type": MIX, "a": 0, "b": 2}, "mix"),
+    ],
+)
+def test_bad_material(scene: c_void_p, changes: dict[str, Any], word: str) -> None:
+    """Named in the message, and not added: the next good one takes its number."""
+    for good in (LAMBERT, MIRROR, GLASS):
+        assert add_material(scene, type=good)[0] == OK
+    result, number = add_material(scene, name=b"culprit", **changes)
+    refused(result, ARGUMENT, word, "culprit")
+    assert number == 12345, "an output of a call that failed was written"
+    assert add_material(scene) == (OK, 3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"mesh": None}, "mesh"),
+        ({"material_count": 0}, "material"),
+        ({"materials": None}, "material"),
+        ({"materials": (c_uint32 * 1)(7)}, "7"),
+        ({"to_world": [NAN] * 16}, "to_world"),
+        ({"to_world": [0] * 16}, "to_world"),
+        ({"instances": np.full((1, 3, 4), NAN), "instance_count": 1, "instance_format": 1}, "instance"),
+        ({"instances": np.zeros((1, 3, 4)), "instance_count": 1, "instance_format": 5}, "instance_format"),
+    ],
+)
+def test_bad_object(scene: c_void_p, changes: dict[str, Any], word: str) -> None:
+    mesh = new_mesh()
+    assert add_material(scene)[0] == OK
+    numbers = (c_uint32 * 1)(0)
+    desc = engine().init(structs.ObjectDesc)
+    desc.name, desc.mesh, desc.material_count, desc.materials = b"culprit", mesh, 1, ctypes.addressof(numbers)
+    for key, value in changes.items():
+        pointer = value.ctypes.data if isinstance(value, np.ndarray) else value
+        if key == "materials" and value is not None:
+            pointer = ctypes.addressof(value)
+        changed(desc, {key: pointer})
+    refused(functions().glimmer_scene_add_object(scene, byref(desc)), ARGUMENT, word)
+    functions().glimmer_mesh_destroy(mesh)
+
+
+@pytest.mark.parametrize(
+    ("centers", "radii", "material", "word"),
+    [
+        ([[0, 0, 0]], [0.0], 0, "radius"),
+        ([[0, 0, 0]], [-1.0], 0, "radius"),
+        ([[0, 0, 0]], [NAN], 0, "radius"),
+        ([[0, 0, 0]], [INFINITY], 0, "radius"),
+        ([[0, NAN, 0]], [1.0], 0, "center"),
+        ([[0, 0, 0], [1, 1, 1], [2, 2, 2]], [1.0, 1.0], 0, "radius_count"),
+        ([[0, 0, 0]], [1.0], 4, "4"),
+    ],
+)
+def test_bad_spheres(scene: c_void_p, centers: list[list[float]], radii: list[float], material: int, word: str) -> None:
+    assert add_material(scene)[0] == OK
+    c, r = np.array(centers, np.float64), np.array(radii, np.float64)
+    desc = engine().init(structs.SpheresDesc)
+    desc.name, desc.material = b"culprit", material
+    desc.count, desc.centers, desc.radius_count, desc.radii = len(c), c.ctypes.data, len(r), r.ctypes.data
+    refused(functions().glimmer_scene_add_spheres(scene, byref(desc)), ARGUMENT, word, "culprit")
+
+
+POINT, SPOT, SUN, AREA = range(4)
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"type": 4}, "type"),
+        ({"type": POINT, "color": (-1, 0, 0)}, "color"),
+        ({"type": POINT, "position": (0, NAN, 0)}, "position"),
+        ({"type": POINT, "radius": -1}, "radius"),
+        ({"type": SPOT, "direction": (0, 0, 0)}, "direction"),
+        ({"type": SPOT, "angle": 181}, "angle"),
+        ({"type": SPOT, "blend": 1.5}, "blend"),
+        ({"type": SUN, "direction": (0, INFINITY, 0)}, "direction"),
+        ({"type": SUN, "angle": -1}, "angle"),
+        ({"type": AREA, "size": (0, 1)}, "size"),
+        ({"type": AREA, "size": (1, NAN)}, "size"),
+        ({"type": AREA, "to_world": list(np.diag([2.0, 1, 1, 1]).ravel())}, "to_world"),
+    ],
+)
+def test_bad_light(scene: c_void_p, changes: dict[str, Any], word: str) -> None:
+    desc = changed(engine().init(structs.LightDesc), {"name": b"culprit", **changes})
+    refused(functions().glimmer_scene_add_light(scene, byref(desc)), ARGUMENT, word, "culprit")
+
+
+def test_bad_environment_and_medium(scene: c_void_p) -> None:
+    library = functions()
+
+    def three(*values: float) -> Any:
+        return (c_double * 3)(*values)
+
+    for color in ((-1, 0, 0), (NAN, 0, 0), (INFINITY, 0, 0)):
+        refused(
+            library.glimmer_scene_set_environment(scene, (c_float * 3)(*color), None, IDENTITY), ARGUMENT, "environment"
+        )
+    scaled = (c_double * 16)(*(2 * np.eye(4)).ravel())
+    refused(library.glimmer_scene_set_environment(scene, (c_float * 3)(), None, scaled), ARGUMENT, "to_world")
+    mesh = new_mesh()
+    refused(library.glimmer_scene_set_environment(scene, (c_float * 3)(), mesh, IDENTITY), ARGUMENT, "image")
+    library.glimmer_mesh_destroy(mesh)
+    good = three(0, 0.1, 0.2)
+    for bad in (three(-1, 0, 0), three(0, NAN, 0), three(0, 0, INFINITY)):
+        refused(library.glimmer_scene_set_medium(scene, bad, good, 0), ARGUMENT, "sigma_a")
+        refused(library.glimmer_scene_set_medium(scene, good, bad, 0), ARGUMENT, "sigma_s")
+    for g in (-1.0, 1.0, NAN, 7.0):
+        refused(library.glimmer_scene_set_medium(scene, good, good, g), ARGUMENT, "g")
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"fov_x": 0}, "fov_x"),
+        ({"fov_x": 180}, "fov_x"),
+        ({"fov_x": NAN}, "fov_x"),
+        ({"to_world": [0] * 16}, "to_world"),
+        ({"to_world": list(np.diag([1.0, 2, 1, 1]).ravel())}, "to_world"),
+        ({"shift": (NAN, 0)}, "shift"),
+        ({"lens_radius": -1}, "lens_radius"),
+        ({"lens_radius": 1, "focus_distance": 0}, "focus_distance"),
+        ({"clip_start": -1}, "clip_start"),
+        ({"clip_start": 2, "clip_end": 1}, "clip_end"),
+    ],
+)
+def test_bad_camera(scene: c_void_p, changes: dict[str, Any], word: str) -> None:
+    desc = changed(engine().init(structs.CameraDesc), changes)
+    refused(functions().glimmer_scene_set_camera(scene, byref(desc)), ARGUMENT, word)
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"width": 0}, "width"),
+        ({"height": 65537}, "height"),
+        ({"crop": (5, 0, 5, 10)}, "crop"),
+        ({"crop": (0, 0, 481, 10)}, "crop"),
+        ({"filter": 2}, "filter"),
+        ({"filter": 1, "filter_width": 0}, "filter_width"),
+        ({"filter": 1, "filter_width": NAN}, "filter_width"),
+    ],
+)
+def test_bad_film(scene: c_void_p, changes: dict[str, Any], word: str) -> None:
+    desc = changed(engine().init(structs.FilmDesc), changes)
+    refused(functions().glimmer_scene_set_film(scene, byref(desc)), ARGUMENT, word)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces of one or more lobes."""
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tests.engine.probe.call import Array, call, empty, f32
+
+LAMBERT, MIRROR, CONDUCTOR, REPORT_METAL = range(4)
+SMITH, SMITH_SEPARABLE, SCHLICK_GGX = range(3)
+NOTHING, SMOOTH, SPECULAR = range(3)
+
+
+class _Lobe(ctypes.Structure):
+    _fields_ = (
+        *((name, ctypes.c_int32) for name in ("type", "use_f0", "masking")),
+        *((name, ctypes.c_float) for name in ("weight", "alpha")),
+        *((name, ctypes.c_float * 3) for name in ("color", "eta", "k", "f0")),
+    )
+
+
+Colour = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Lobe:
+    """f0 given means Schlick; else eta and k."""
+
+    type: int
+    weight: float = 1
+    color: Colour = (0, 0, 0)
+    alpha: float = 0
+    f0: Colour | None = None
+    eta: Colour = (1, 1, 1)
+    k: Colour = (0, 0, 0)
+    masking: int = SMITH
+
+
+def _lobes(lobes: Sequence[Lobe]) -> tuple[Any, Any]:
+    out = (_Lobe * len(lobes))()
+    for c, lobe in zip(out, lobes, strict=True):
+        c.type, c.use_f0, c.masking, c.weight, c.alpha = (
+            lobe.type,
+            lobe.f0 is not None,
+            lobe.masking,
+            lobe.weight,
+            lobe.alpha,
+        )
+        c.color[:], c.eta[:], c.k[:], c.f0[:] = lobe.color, lobe.eta, lobe.k, lobe.f0 or (0, 0, 0)
+    return out, np.uint64(len(lobes))
+
+
+def evaluate(lobes: Sequence[Lobe], wo: ArrayLike, wi: ArrayLike) -> tuple[Array, Array]:
+    """f |cos_i| (n, 3) and pdf (n)."""
+    directions = f32(wi)
+    n = len(directions)
+    f, pdf = empty(n, 3), empty(n)
+    call("probe_bsdf_eval", *_lobes(lobes), f32(wo), directions, np.uint64(n), f, pdf)
+    return f, pdf
+
+
+class BsdfSamples(NamedTuple):
+    wi: Array
+    weight: Array
+    pdf: Array
+    result: Array  # NOTHING, SMOOTH or SPECULAR; the others are 0 where there is nothing
+
+
+def sample(lobes: Sequence[Lobe], wo: ArrayLike, u_lobe: Array, u: Array) -> BsdfSamples:
+    n = len(u)
+    out = BsdfSamples(empty(n, 3), empty(n, 3), empty(n), empty(n, kind=np.int32))
+    call("probe_bsdf_sample", *_lobes(lobes), f32(wo), np.ascontiguousarray(u_lobe), u, np.uint64(n), *out)
+    return out
+
+
+def describe(lobes: Sequence[Lobe]) -> tuple[Array, Array, bool, bool]:
+    """Selection probabilities, albedo, is_specular, has_specular."""
+    select, albedo, flags = empty(len(lobes)), empty(3), empty(2, kind=np.int32)
+    call("probe_bsdf_describe", *_lobes(lobes), select, albedo, flags)
+    return select, albedo, bool(flags[0]), bool(flags[1])

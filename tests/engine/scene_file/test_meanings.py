@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every value of the scene file changes the picture or a layer of it."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tests.engine import scenes
+from tests.engine.scenes import Scene, changed, every_key
+
+pytestmark = pytest.mark.usefixtures("glimmer_command")
+
+
+# Each value that means something, changed: (path, other value). The picture, or a layer of it, must change with it.
+MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
+    (("film", "filter"), "box"),
+    (("film", "filter", "width"), 3),
+    (("camera", "origin", 0), 1),
+    (("camera", "target", 0), 1),
+    (("camera", "up"), [0.2, 0, 1]),
+    (("camera", "fov_x"), 50),
+    (("camera", "shift", 0), 0),
+    (("camera", "shift", 1), 0),
+    (("camera", "lens_radius"), 0.2),
+    (("camera", "focus_distance"), 5),
+    (("camera", "clip"), [7, 9]),
+    (("materials", "plate", "weight"), 0.5),
+    (("materials", "plate", "a", "albedo"), 0.1),
+    (("materials", "plate", "b"), "gold"),
+    (("materials", "plate", "emission"), 2),
+    (("materials", "metal", "alpha"), 0.5),
+    (("materials", "metal", "eta"), 1.5),
+    (("materials", "metal", "k"), 1),
+    (("materials", "metal", "masking"), "smith"),
+    (("materials", "metal", "masking"), "schlick_ggx"),
+    (("materials", "metal", "emission"), 2),
+    (("materials", "gold", "f0"), 0.2),
+    (("materials", "gold", "f90"), 0.2),
+    (("materials", "gold", "alpha"), 0.5),
+    (("materials", "wax", "albedo"), 0.1),
+    (("materials", "wax", "emission"), 1),
+    (("materials", "mirror", "reflectance"), 0.5),
+    (("materials", "mirror", "emission"), 1),
+    (("materials", "glass", "ior"), 1.2),
+    (("materials", "glass", "fresnel"), "exact"),
+    (("materials", "old", "albedo"), 0.9),
+    (("materials", "old", "f0"), 0.1),
+    (("materials", "old", "alpha"), 0.9),
+    (("materials", "old", "emission"), 1),
+    (("materials", "moon", "radiance"), 7),
+    (("meshes", "quad", "normals"), [[0.3, 0, 1]] * 4),
+    (("meshes", "hex", "slots"), [1, 1]),
+    (("meshes", "files", "slots"), [1, 0]),
+    (("objects", 0, "index"), 8),
+    (("objects", 0, "material"), "wax"),
+    (("objects", 0, "to_world", 2, 3), 0.3),
+    (("objects", 1, "materials"), ["gold", "wax"]),
+    (("objects", 1, "indices"), [4, 4, 4, 4, 4]),
+    (("objects", 1, "to_world"), [[1, 0, 0, 1], *scenes.IDENTITY[1:]]),
+    (("objects", 3, "material"), "wax"),
+    (("spheres", 0, "center", 0), -1),
+    (("spheres", 0, "radius"), 0.8),
+    (("spheres", 0, "index"), 4),
+    (("spheres", 1, "radius"), 0.4),
+    (("spheres", 2, "radii"), [0.2] * 7),
+    (("spheres", 3, "material"), "wax"),
+    (("lights", 0, "position", 0), 2),
+    (("lights", 0, "intensity"), 3),
+    (("lights", 0, "radius"), 1),
+    (("lights", 1, "intensity"), 40),
+    (("lights", 1, "direction"), [0, 0.5, -2]),
+    (("lights", 1, "angle"), 90),
+    (("lights", 1, "blend"), 1),
+    (("lights", 1, "radius"), 0.5),
+    (("lights", 2, "direction"), [0, 0, -1]),
+    (("lights", 2, "irradiance"), 3),
+    (("lights", 2, "angle"), 20),
+    (("lights", 3, "to_world", 2, 3), 2),
+    (("lights", 3, "size", 1), 3),
+    (("lights", 3, "shape"), "rectangle"),
+    (("lights", 3, "radiance"), 5),
+    (("environment", "strength"), 1),
+    (("environment", "to_world"), [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]),
+    (("render", "max_depth"), 1),
+]
+
+
+FOG_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
+    (("medium", "sigma_a"), 0.1),
+    (("medium", "sigma_s"), 0.1),
+    (("medium", "g"), 0.5),
+    (("render", "max_scatter"), 0),
+]
+
+
+def all_layers(folder: Path, content: Scene) -> dict[str, NDArray[Any]]:
+    options = ("--spp", 4, "--aov", "object_index,material_index,normal,depth")
+    return scenes.render(folder, content, *options).channels
+
+
+@pytest.mark.parametrize("fog", [False, True], ids=["clear", "fog"])
+def test_every_value_means_something(fog: bool, tmp_path: Path) -> None:
+    """Nothing is read and then forgotten. Without fog, through which the environment cannot be seen, and with it."""
+    base = every_key(tmp_path)
+    base["film"].update(width=32, height=24, crop=[0, 0, 32, 24])
+    base["lights"][3]["to_world"][2][3] = 3
+    if not fog:
+        del base["medium"]
+    reference = all_layers(tmp_path, base)
+    assert all(np.array_equal(channel, reference[name]) for name, channel in all_layers(tmp_path, base).items())
+    forgotten = []
+    for path, value in FOG_MEANINGS if fog else MEANINGS:
+        layers = all_layers(tmp_path, changed(base, path, value))
+        if all(np.array_equal(layers[name], reference[name]) for name in reference):
+            forgotten.append(".".join(map(str, path)))
+    assert not forgotten
