@@ -5,22 +5,24 @@
 
 #include "bsdf/glass.h"
 #include "integrator/glass_stack.h"
+#include "integrator/shading_frame.h"
 #include "scene/scene.h"
 
 namespace glimmer {
 
 struct GlassCrossing {
-    GlassStack beyond; ///< the bodies around the ray if it passes
-    float eta;         ///< index on the other side / index on this side
-    Vec3f geometric;   ///< on the ray's side
+    GlassStack beyond;        ///< the bodies around the ray if it passes
+    float eta;                ///< index on the other side / index on this side
+    Vec3f geometric, shading; ///< on the ray's side
+    Vec3f back;               ///< away from the surface, where the ray comes from
+    bool about_shading;       ///< the frame's normal
     Frame frame;
-    Vec3f outgoing; ///< local, away from the surface, where the ray comes from
+    Vec3f outgoing; ///< back, in the frame
 
     GlassCrossing(const Interaction &surface, const Material &material, const Vec3f &direction,
                   const GlassStack &around)
-        : beyond(around), geometric(surface.geometric_normal), frame(surface.shading_normal) {
-        const Vec3f wo = -direction;
-        const bool entering = dot(wo, surface.geometric_normal) > 0;
+        : beyond(around), back(-direction), frame(surface.shading_normal) {
+        const bool entering = dot(back, surface.geometric_normal) > 0;
         if (entering)
             beyond.enter(surface.body, material.ior);
         else
@@ -29,9 +31,14 @@ struct GlassCrossing {
         eta = beyond.ior() / (entering || !around.empty() ? around.ior() : material.ior);
         const float side = entering ? 1.0f : -1.0f;
         geometric = surface.geometric_normal * side;
-        const Vec3f shading = surface.shading_normal * side;
-        frame = Frame(dot(wo, shading) > 1e-6f ? shading : geometric);
-        outgoing = frame.to_local(wo);
+        shading = surface.shading_normal * side;
+        shade(is_above_horizon(shading, back));
+    }
+
+    void shade(bool about_shading_normal) {
+        about_shading = about_shading_normal;
+        frame = Frame(about_shading ? shading : geometric);
+        outgoing = frame.to_local(back);
         outgoing.z = std::max(outgoing.z, 1e-7f);
     }
 
@@ -39,6 +46,17 @@ struct GlassCrossing {
     /// Whether a sampled direction is on the side of the true surface that it claims.
     bool possible(const Vec3f &direction, bool transmitted) const {
         return (dot(direction, geometric) < 0) == transmitted;
+    }
+    /// Whether a path that comes from a sampled direction is shaded about the frame's normal, too.
+    bool holds_backwards(const Vec3f &direction, bool transmitted) const {
+        return is_above_horizon(transmitted ? -shading : shading, direction) == about_shading;
+    }
+    /// Whether a direction sampled about the true normal may be beneath the shading normal's horizon: it is no steeper
+    /// then than the normals are apart.
+    bool may_leave_beneath_horizon() const {
+        const float cos = dot(back, geometric), apart2 = length_squared(cross(shading, geometric));
+        const float refracted2 = (cos * cos + (eta - 1) * (eta + 1)) / (eta * eta);
+        return cos * cos <= apart2 || (refracted2 > 0 && refracted2 <= apart2);
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include "integrator/glass_crossing.h"
 #include "integrator/held_share.h"
+#include "integrator/shading_frame.h"
 #include "integrator/surroundings.h"
 #include "light/emission.h"
 #include "medium/phase.h"
@@ -151,19 +152,26 @@ class LightPath {
     }
 
     /// Samples the adjoint of what a camera path does: f |w_in.ns| / |w_in.ng| * |w_out.ng|, with the frame as seen
-    /// along w_out (Veach 1997, 5.3). Where the normals differ, an eighth of the directions is drawn about the true
-    /// normal, since the frame of w_in has no samples for some that the camera can see.
+    /// along w_out (Veach 1997, 5.3). Where the normals differ, the frame of w_in has no samples for some directions
+    /// that the camera can see: a part of them is drawn about the true normal.
     bool reflect(Branch &path, const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
-        const bool bent = !(v.shading == v.geometric);
-        const Vec3f own_shading = dot(v.incoming, v.shading) > 1e-6f ? v.shading : v.geometric;
-        const Frame frame(own_shading);
+        const bool bent = !(v.shading == v.geometric), about_shading = is_above_horizon(v.shading, v.incoming);
+        const Frame frame(about_shading ? v.shading : v.geometric);
         const Vec3f incoming = frame.to_local(v.incoming);
         if (!(incoming.z > 0))
             return false;
-        constexpr float kTrueNormal = 0.125f;
+        constexpr float kTrueNormal = 0.125f, kTrueMirror = 0.25f;
+        const float even = bent && !is_specular(bsdf) ? kTrueNormal : 0;
+        const float flat = bent && about_shading && has_specular(bsdf) && mirrors_beneath_horizon(v) ? kTrueMirror : 0;
+        const float own = 1 - even - flat, u_way = bent ? sampler_.next_1d() : 1;
+        if (u_way < flat) {
+            const Frame true_frame(v.geometric);
+            const auto s = sample(bsdf, true_frame.to_local(v.incoming), sampler_.next_1d(), sampler_.next_2d());
+            return s && s->specular && reflect_as_mirror(path, v, surface, true_frame, false, *s, flat);
+        }
         Vec3f direction;
         float density;
-        if (bent && sampler_.next_1d() < kTrueNormal) {
+        if (u_way < flat + even) {
             path.chain = 0;
             direction = normalize(Frame(v.geometric).to_world(sample_cosine_hemisphere(sampler_.next_2d())));
             density = pdf(bsdf, incoming, frame.to_local(direction));
@@ -171,30 +179,45 @@ class LightPath {
             const auto s = sample(bsdf, incoming, sampler_.next_1d(), sampler_.next_2d());
             if (!s)
                 return false;
+            if (s->specular)
+                return reflect_as_mirror(path, v, surface, frame, about_shading, *s, own);
             direction = normalize(frame.to_world(s->wi));
             if (!(dot(direction, v.geometric) > 0))
                 return false;
-            if (!s->specular)
-                path.chain = 0;
-            else if (path.sharp || !survives_chain(path))
-                return false;
+            path.chain = 0;
             density = s->pdf;
-            if (!bent || s->specular) {
-                path.power *= s->weight * ((incoming.z / dot(v.incoming, v.geometric)) *
-                                           (dot(direction, v.geometric) / std::max(s->wi.z, 1e-7f)) /
-                                           (bent ? 1 - kTrueNormal : 1.0f));
-                const float held = s->specular ? 0 : held_share(bsdf, s->wi, incoming);
-                leave(path, surface, direction, 1 - held);
+            if (!bent) {
+                path.power *= s->weight * scale_of_flux(frame.z, v.geometric, v.incoming, direction, s->wi.z);
+                leave(path, surface, direction, 1 - held_share(bsdf, s->wi, incoming));
                 return true;
             }
         }
         const float cosine = dot(direction, v.geometric);
         if (!(cosine > 0))
             return false;
-        density = (1 - kTrueNormal) * density + kTrueNormal * pdf_cosine_hemisphere(cosine);
+        density = own * density + even * pdf_cosine_hemisphere(cosine);
         const Connection c = connect(v, bsdf, direction);
         path.power *= c.factor * (1 / density);
         leave(path, surface, direction, 1 - c.held);
+        return true;
+    }
+
+    /// Whether a camera path may come from where a mirror about the true normal sends the light.
+    static bool mirrors_beneath_horizon(const SurfaceVertex &v) {
+        const Vec3f mirrored = v.geometric * (2 * dot(v.incoming, v.geometric)) - v.incoming;
+        return !is_above_horizon(v.shading, mirrored);
+    }
+
+    /// share: of the draws that were for a sample of this frame.
+    bool reflect_as_mirror(Branch &path, const SurfaceVertex &v, const Interaction &surface, const Frame &frame,
+                           bool about_shading, const BsdfSample &s, float share) {
+        const Vec3f direction = normalize(frame.to_world(s.wi));
+        if (!(dot(direction, v.geometric) > 0) || is_above_horizon(v.shading, direction) != about_shading)
+            return false;
+        if (path.sharp || !survives_chain(path))
+            return false;
+        path.power *= s.weight * (scale_of_flux(frame.z, v.geometric, v.incoming, direction, s.wi.z) / share);
+        leave(path, surface, direction, 1);
         return true;
     }
 
@@ -215,11 +238,22 @@ class LightPath {
     void pass_glass(Branch &path, const Interaction &surface, const Material &material) {
         if (path.sharp || !survives_chain(path))
             return;
-        const GlassCrossing crossing(surface, material, path.ray.direction, path.glass);
+        GlassCrossing crossing(surface, material, path.ray.direction, path.glass);
+        const bool bent = !(crossing.shading == crossing.geometric);
+        if (bent && crossing.about_shading && crossing.may_leave_beneath_horizon()) {
+            crossing.shade(sampler_.next_1d() < 0.5f);
+            path.power *= 2;
+        }
         const GlassSample s = sample_glass(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
         const Vec3f direction = crossing.to_world(s.wi);
         if (!crossing.possible(direction, s.transmitted))
             return;
+        if (bent) {
+            if (!crossing.holds_backwards(direction, s.transmitted) || !(dot(crossing.back, crossing.geometric) > 0))
+                return;
+            path.power *=
+                scale_of_flux(crossing.frame.z, crossing.geometric, crossing.back, direction, std::abs(s.wi.z));
+        }
         if (s.transmitted)
             path.glass = crossing.beyond;
         leave(path, surface, direction, 1);
@@ -244,7 +278,7 @@ Connection connect(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction) {
     const float cosine = dot(direction, v.geometric);
     if (!(cosine > 0))
         return {};
-    const Frame frame(dot(direction, v.shading) > 1e-6f ? v.shading : v.geometric);
+    const Frame frame(is_above_horizon(v.shading, direction) ? v.shading : v.geometric);
     const Vec3f incoming = frame.to_local(v.incoming), outgoing = frame.to_local(direction);
     if (!(incoming.z > 0) || !(outgoing.z > 0))
         return {};

@@ -6,6 +6,7 @@
 #include "integrator/held_share.h"
 #include "integrator/mis.h"
 #include "integrator/path_sample.h"
+#include "integrator/shading_frame.h"
 
 #include <array>
 #include <cmath>
@@ -41,7 +42,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
     const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
     const Vec3f geometric = surface.geometric_normal * side;
     Vec3f shading = surface.shading_normal * side;
-    if (!(dot(wo, shading) > 1e-6f))
+    if (!is_above_horizon(shading, wo))
         shading = geometric;
     const Frame frame(shading);
     const Vec3f wo_local = frame.to_local(wo);
