@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from addon.native.structs import State
+from addon.native.structs import ProgressDesc, State
 from addon.scene import description as d
 from tests.engine.library import Render, Scene, call, rendering
 from tests.engine.worlds import everything, heavy
@@ -49,8 +49,7 @@ def wait_for_progress(render: Render, seconds: float = 30) -> None:
 # ---- Polling -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_poll_only_grows(integrator: str) -> None:
+def polled_to_the_end(integrator: str) -> list[ProgressDesc]:
     with Render(wide(), integrator=integrator, samples=8, threads=2) as render:
         before = render.poll()
         assert (before.state, before.samples, before.version, before.rays) == (State.READY, 0, 0, 0)
@@ -60,17 +59,26 @@ def test_poll_only_grows(integrator: str) -> None:
         while seen[-1].state < State.FINISHED:
             seen.append(render.poll())
         render.wait()
-        seen.append(render.poll())
-    for a, b in itertools.pairwise(seen):
-        for name in ("samples", "fraction", "seconds", "cpu_seconds", "rays", "version", "state"):
-            assert getattr(b, name) >= getattr(a, name), name
-        assert 0 <= b.fraction <= 1
-    last = seen[-1]
-    assert (last.state, last.samples, last.fraction) == (State.FINISHED, 8, 1)
-    assert last.rays > 8 * 200 * 150 and last.peak_bytes > 200 * 150 * 12
-    assert 0 < last.relmse_low <= last.relmse <= last.relmse_high
-    assert last.seconds > 0 and last.cpu_seconds > 0
-    assert len({p.version for p in seen}) > 3, "polled too seldom to say anything"
+        return [*seen, render.poll()]
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_poll_only_grows(integrator: str) -> None:
+    """On a busy machine a render may be over before it was polled four times: then another."""
+    for _ in range(20):
+        seen = polled_to_the_end(integrator)
+        for a, b in itertools.pairwise(seen):
+            for name in ("samples", "fraction", "seconds", "cpu_seconds", "rays", "version", "state"):
+                assert getattr(b, name) >= getattr(a, name), name
+            assert 0 <= b.fraction <= 1
+        last = seen[-1]
+        assert (last.state, last.samples, last.fraction) == (State.FINISHED, 8, 1)
+        assert last.rays > 8 * 200 * 150 and last.peak_bytes > 200 * 150 * 12
+        assert 0 < last.relmse_low <= last.relmse <= last.relmse_high
+        assert last.seconds > 0 and last.cpu_seconds > 0
+        if len({p.version for p in seen}) > 3:
+            return
+    raise AssertionError("polled too seldom, 20 times")
 
 
 def test_time_left_is_estimated() -> None:
