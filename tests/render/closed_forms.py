@@ -52,6 +52,24 @@ def ggx_albedo(mu: float, alpha: float, n: int = 200) -> float:
     return float((wx * 2 * (1 - x)) @ value @ wphi / PI)
 
 
+def tilted_ggx_albedo(mu: float, alpha: float, tilt: float, n: int = 2000) -> float:
+    """The same of a surface whose normal is bent away from the viewer by `tilt` (radians, in the plane of incidence; mu
+    is of the bent one): without what would go below the true surface. By midpoints, as that cuts through the lobe.
+    """
+    u = (np.arange(n) + 0.5) / n
+    phi = PI * u
+    u = 1 - (1 - u) ** 2
+    weights = 2 * np.sqrt(1 - u) / n
+    c = 1 / np.sqrt(1 + alpha**2 * u / (1 - u))[:, None]
+    s = np.sqrt(1 - c**2)
+    i_h = np.sqrt(1 - mu**2) * s * np.cos(phi) + mu * c
+    o_x, o_z = 2 * i_h * s * np.cos(phi) - np.sqrt(1 - mu**2), 2 * i_h * c - mu
+    kept = (i_h > 0) & (o_z > 0) & (o_x * np.sin(tilt) + o_z * np.cos(tilt) > 0)
+    lam_i, lam_o = ((np.sqrt(1 + alpha**2 * (1 / cos**2 - 1)) - 1) / 2 for cos in (mu, np.where(kept, o_z, 1)))
+    value = np.where(kept, i_h / (mu * c) / (1 + lam_i + lam_o), 0)
+    return float(weights @ value.mean(axis=1))
+
+
 def fresnel(cos_i: float, ior: float) -> float:
     """Reflectance of a dielectric from outside."""
     cos_t = np.sqrt(1 - (1 - cos_i**2) / ior**2)
