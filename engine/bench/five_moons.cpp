@@ -136,7 +136,8 @@ class Minimal {
         if (!survives(fork.beta, 1 / scale, fork.x, sampler))
             return false;
         sum += Rgb(fork.beta) * pool_.pool.gather(fork.x, fork.direction, sampler, rays);
-        const float u = sampler.next_1d(), k = std::sqrt((1 - u) / std::max(u, 1e-12f));
+        const float u = sampler.next_1d();
+        const float k = std::sqrt((1 - u) / std::max(u, 1e-12f)) * pool_.settings.widening(fork.x);
         fork.fog_reach = k * pool_.settings.fog_bound;
         fork.surface_reach = k * pool_.settings.surface_bound;
         fork.direction = sample_uniform_sphere(sampler.next_2d());

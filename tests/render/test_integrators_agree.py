@@ -124,6 +124,15 @@ def metal_seen_in_a_mirror() -> Builder:
     return scene.sphere((-1, 4, 1.2), 0.9, d.Light(grey(10)))
 
 
+def fog_far_beyond_a_screen() -> Builder:
+    """Half of the fog that is seen is close, before a screen: beyond it, the bounds of connections are many times those
+    of there, and so is what they leave out.
+    """
+    scene = Builder(camera((0, -1, 0), (0, 4, 0), 40), 32, 24, medium=d.Medium(grey(0.002), grey(0.15)))
+    scene.mesh(quad((0, 0, -0.35), (0.6, 0, 0), (0, 0, 0.4)), d.Lambert(grey(0.2)))
+    return scene.sphere((0, 12, 9), 2, d.Light((5, 4, 3)))
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -148,6 +157,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "channels far apart": channels_apart,
     "glass between lights": glass_between_lights,
     "point over a mirror": point_over_mirror,
+    "far beyond a screen": fog_far_beyond_a_screen,
 }
 
 

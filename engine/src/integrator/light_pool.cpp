@@ -47,7 +47,7 @@ LightPool::LightPool(const Scene &scene, const GlassStack &around_camera)
 
 /// d0 from a pilot pass: d0^2 = sigma / (4 pi density), at which a vertex that near brings about as much as all the
 /// light of its neighbourhood; the error is flat about it. The density is that of the vertices around points that the
-/// camera sees.
+/// camera sees; farther away than these, d0 grows (PoolSettings::widening).
 void LightPool::set_bounds() {
     constexpr uint32_t kPoints = 64, kNeighbours = 8;
     RayCounter rays;
@@ -90,8 +90,10 @@ void LightPool::set_bounds() {
         distances.push_back(length(q)); // the camera stands at the origin
     if (!distances.empty()) {
         std::nth_element(distances.begin(), distances.begin() + long(distances.size() / 2), distances.end());
-        settings_.splat_bound = kSplatBound * distances[distances.size() / 2];
+        settings_.seen_distance = distances[distances.size() / 2];
+        settings_.splat_bound = kSplatBound * settings_.seen_distance;
     }
+    settings_.decay = diffusion(*scene_.medium);
 }
 
 std::vector<Vec3f> LightPool::seen_points(const Rectangle &pixels, uint32_t count, Sampler &sampler,

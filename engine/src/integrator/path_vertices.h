@@ -38,7 +38,8 @@ bool PathSample<F>::gather(State &state, float scale, float t) {
     state.exempt *= scale;
     const Rgb value = state.beta * pool_->pool.gather(x, state.ray.direction, sampler_, rays_);
     (state.first == First::surface ? result_.indirect : result_.fog) += value;
-    const float u = sampler_.next_1d(), k = std::sqrt((1 - u) / std::max(u, 1e-12f)); // P(k d0 > d) = 1 - w(d)
+    const float u = sampler_.next_1d(); // P(k d0(x) > d) = 1 - w(d)
+    const float k = std::sqrt((1 - u) / std::max(u, 1e-12f)) * pool_->settings.widening(x);
     state.fog_reach = k * pool_->settings.fog_bound;
     state.surface_reach = k * pool_->settings.surface_bound;
     const Vec3f seen = state.ray.direction;

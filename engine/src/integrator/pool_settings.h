@@ -2,6 +2,10 @@
 // Lengths and counts of the shared light vertices, derived from the scene (see LightPool).
 #pragma once
 
+#include "math/vec.h"
+
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace glimmer {
@@ -14,6 +18,23 @@ struct PoolSettings {
     static constexpr uint32_t fog_picks = 128, surface_picks = 8;
     float fog_bound = 1, surface_bound = 2; ///< d0, lengths: a connection counts w(d) = d^2 / (d^2 + d0^2) of itself
     float splat_bound = 1;                  ///< the same for splats, by the beam's distance from the camera
+    float seen_distance = kInfinity;        ///< from the camera: half of what it sees of the fog is nearer
+    float decay = 0;                        ///< diffusion() of the fog, per length
+
+    /// What the bounds of a gather at x are to be multiplied by: g(x) = e^(decay (r - r_0)) r / r_0 >= 1, at r = |x|
+    /// from the camera beyond r_0 = 2 seen_distance. That far off, the weight window leaves few and heavy vertices:
+    /// their weight goes with importance^(-3/4), importance with e^(-decay r) / r (CameraImportance), and the few that
+    /// paths raised by roulette meet there were spikes in one picture of twenty. d0 ~ density^(-1/2), as in
+    /// LightPool::set_bounds, with the window's density alone would be g to the power of 3/8. But the light thins out
+    /// as well, and roulette raises what gathers there: measured, 3/8 leaves most of the spikes, 1 next to none, and
+    /// powers of r alone lose elsewhere; from 1.5 seen_distance on, thin fog full of lights loses. As it depends on
+    /// nothing but x, nothing is biased while the ray that brings what the connections of x leave out takes the same.
+    float widening(const Vec3f &x) const {
+        constexpr float kFar = 2;
+        constexpr float kMost = 1e6f; // finite, and far beyond where connections still bring anything
+        const float r = length(x), r0 = kFar * seen_distance;
+        return r > r0 ? std::min(std::exp(decay * (r - r0)) * (r / r0), kMost) : 1;
+    }
 };
 
 /// w(d), the share of a bounded connection.

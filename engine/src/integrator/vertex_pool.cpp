@@ -156,6 +156,8 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
     alignas(64) std::array<float, PoolSettings::fog_picks> fog_parts;
     std::array<float, PoolSettings::surface_picks> surface_parts;
     std::array<Rgb, PoolSettings::surface_picks> surface_values;
+    const float widening = settings_.widening(x);
+    const float fog_bound = widening * settings_.fog_bound, surface_bound = widening * settings_.surface_bound;
     Rgb total;
     float parts = 0;
 
@@ -163,8 +165,8 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
     ConnectionSums fog_sums{};
     if (fog_count) {
         const SeenPoint point{x.x, x.y, x.z, seen.x, seen.y, seen.z};
-        fog_sums = loops().connect(for_loops(medium), columns(fog_, fog_first), fog_count, point, settings_.fog_bound,
-                                   fog_parts.data());
+        fog_sums =
+            loops().connect(for_loops(medium), columns(fog_, fog_first), fog_count, point, fog_bound, fog_parts.data());
         total = Rgb(fog_sums.r, fog_sums.g, fog_sums.b);
         parts = fog_sums.part;
     }
@@ -178,8 +180,7 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
             continue;
         const float d2 = length_squared(to_point), d = std::sqrt(d2);
         const Connection c = connect(v, scene_.bsdf(scene_.materials[v.material]), to_point / d);
-        const float scale =
-            c.held * phase.eval(seen, -to_point / d) / (d2 + settings_.surface_bound * settings_.surface_bound);
+        const float scale = c.held * phase.eval(seen, -to_point / d) / (d2 + surface_bound * surface_bound);
         surface_values[k] = c.factor * v.power * medium.transmittance(d) * scale;
         surface_parts[k] = mean_component(surface_values[k]);
         total += surface_values[k];
@@ -213,8 +214,7 @@ Rgb VertexPool::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayC
         return total;
     const float phases =
         even ? kIsotropicPhase * kIsotropicPhase : phase.eval(seen, way / d) * phase.eval(fog_.direction(j), -way / d);
-    const Rgb value =
-        fog_.power(j) * medium.transmittance(d) * (phases / (d * d + settings_.fog_bound * settings_.fog_bound));
+    const Rgb value = fog_.power(j) * medium.transmittance(d) * (phases / (d * d + fog_bound * fog_bound));
     return total - value * (parts / fog_parts[k]);
 }
 

@@ -15,11 +15,10 @@ class VertexPool {
 
     bool empty() const { return fog_.size() == 0 && surface_.empty(); }
 
-    /// The radiance that the fog at x scatters towards the camera, which looks along `seen`,
-    /// per unit of its scattering weight, of all light that
-    /// was scattered at least once before, each vertex by the share w(d): the sum over a sub-pool, less one vertex
-    /// chosen by its part of the sum if that one is hidden, over its probability. Unbiased; single estimates may be
-    /// negative.
+    /// The radiance that the fog at x scatters towards the camera, which looks along `seen`, per unit of its scattering
+    /// weight, of all light that was scattered at least once before, each vertex by the share w(d), with the bounds of
+    /// x (PoolSettings::widening): the sum over a sub-pool, less one vertex chosen by its part of the sum if that one
+    /// is hidden, over its probability. Unbiased; single estimates may be negative.
     Rgb gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, RayCounter &rays) const;
 
   private:
