@@ -16,6 +16,8 @@ class PathIntegrator final : public Integrator {
           seen_lights_(scene, around_camera_.empty() && !rays_start_apart() ? options.light_rays : 0) {
         if (options_.light_vertices && options_.line_lights && options_.deep_line_lights)
             pool_ = plan_light_pool(scene, limits, around_camera_);
+        plan_ = plan_path(scene, options);
+        plan_.light_pixel = plan_.light_pixel && around_camera_.empty() && !rays_start_apart() && limits.depth > 0;
         needed_ = needed_by(scene, options, pool_ != nullptr);
         kernel_ = &path_kernel(full_kernel ? kEverything : needed_);
     }
@@ -35,7 +37,7 @@ class PathIntegrator final : public Integrator {
         const auto *pool = static_cast<const LightPoolBlock *>(block);
         const uint32_t light_rays = seen_lights_.rays(camera.pixel_x, camera.pixel_y);
         const float seen_part = 1 / float(1 + light_rays);
-        const PathWork work{scene_, limits_, options_, pool, seen_part};
+        const PathWork work{scene_, limits_, options_, plan_, pool, camera.pixel_x, camera.pixel_y, seen_part};
         FilmSample result = rays_start_apart() ? kernel_->sample(work, camera.ray,
                                                                  glass_around(scene_, camera.ray.origin), sampler, rays)
                                                : kernel_->sample(work, camera.ray, around_camera_, sampler, rays);
@@ -54,7 +56,12 @@ class PathIntegrator final : public Integrator {
                                                             : "path";
         return name + " (compiled for " + kernel_->name + ")";
     }
-    std::vector<std::string> left_out() const override { return glimmer::left_out(needed_); }
+    std::vector<std::string> left_out() const override {
+        std::vector<std::string> lines = glimmer::left_out(needed_);
+        if (needed_.surfaces && options_.pixel_points && !plan_.light_pixel)
+            lines.emplace_back("no surfaces that glint: one point of a pixel is lit, not one of several");
+        return lines;
+    }
 
   private:
     /// A lens or the near plane may carry camera rays across a wall of glass.
@@ -66,6 +73,7 @@ class PathIntegrator final : public Integrator {
     GlassStack around_camera_;
     SeenLights seen_lights_;
     std::unique_ptr<const LightPool> pool_;
+    PathPlan plan_;
     Features needed_;
     const PathKernel *kernel_ = nullptr;
 };

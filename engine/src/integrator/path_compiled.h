@@ -4,6 +4,7 @@
 
 #include "integrator/path_fog.h"
 #include "integrator/path_kernels.h"
+#include "integrator/path_pixel.h"
 #include "integrator/path_segment.h"
 #include "integrator/path_surface.h"
 #include "integrator/path_vertices.h"

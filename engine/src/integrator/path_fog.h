@@ -17,6 +17,12 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
     const bool camera = state.depth == 0, all = state.direct_view();
     const HenyeyGreenstein phase{fog.g};
     const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
+    float looked = 1;
+    if (!all && pooled()) { // short segments between plates scatter next to nothing: seldom worth a look
+        looked = survival((Rgb(1) - fog.transmittance(end)) * state.beta, state.exempt, origin);
+        if (!(looked > 0) || (looked < 1 && sampler_.next_1d() >= looked))
+            return;
+    }
     for (uint32_t i = 0; i < choices(all); ++i) {
         const LightChoice choice = choose(i, all, origin, direction, end);
         if (scene_.lights.bound(choice.index).infinite)
@@ -45,7 +51,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
-        const Rgb value = state.beta * unshadowed * weight;
+        const Rgb value = state.beta * unshadowed * (weight / looked);
         (state.first == First::surface ? result_.indirect : result_.fog) += value;
     }
 }

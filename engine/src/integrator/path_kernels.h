@@ -6,6 +6,7 @@
 #include "integrator/features.h"
 #include "integrator/integrator.h"
 #include "integrator/light_pool.h"
+#include "integrator/path_plan.h"
 
 namespace glimmer {
 
@@ -14,7 +15,9 @@ struct PathWork {
     const Scene &scene;
     const DepthLimits &limits;
     const PathOptions &options;
+    const PathPlan &plan;
     const LightPoolBlock *pool; ///< null: plain paths
+    uint32_t pixel_x, pixel_y;
     float seen_part; ///< of the radiance of a sphere that the camera's own ray meets; other rays bring the rest
 };
 

@@ -8,14 +8,15 @@ namespace glimmer {
 
 /// The estimators that can be switched, one by one: each changes noise and time, never the mean.
 struct PathOptions {
-    bool split = true;        ///< direct segments of fog: both ends are followed; else one, by free flight
-    bool all_lights = true;   ///< every light is sampled at surfaces (with about two shadow rays beyond the first) and
-                              ///< along what the camera sees directly; else one everywhere
-    uint32_t light_rays = 16; ///< camera rays more in pixels where spheres that shine are seen (seen_lights.h)
-    uint32_t surface_branches = 4; ///< paths that go on from the first surface
-    bool guided_choice = true;     ///< one light is chosen by what it could bring; else all alike
-    bool line_lights = true; ///< light is sampled along direct segments of fog; else at the collision that ends them
+    bool split = true;         ///< direct segments of fog: both ends are followed; else one, by free flight
+    bool all_lights = true;    ///< every light is sampled at surfaces (with about two shadow rays beyond the first) and
+                               ///< along what the camera sees directly; else one everywhere
+    uint32_t light_rays = 16;  ///< camera rays more in pixels where spheres that shine are seen (seen_lights.h)
+    bool branch = true;        ///< several paths go on from the first surface (path_plan.h); else one
+    bool guided_choice = true; ///< one light is chosen by what it could bring; else all alike
+    bool line_lights = true;   ///< light is sampled along direct segments of fog; else at the collision that ends them
     bool deep_line_lights = true; ///< the same for all later segments
+    bool pixel_points = true;     ///< where bevels glint, several points of a pixel compete for being lit; else one is
     bool light_vertices =
         true; ///< light scattered more than once comes from vertices shared by all pixels; else from paths alone
 
@@ -24,6 +25,6 @@ struct PathOptions {
 inline constexpr PathOptions kAllEstimators;
 
 /// The student report's method, kept as a yardstick: one light, exponential free flights, balance heuristic.
-inline constexpr PathOptions kReportOptions{false, false, 0, 1, false, false, false, false};
+inline constexpr PathOptions kReportOptions{false, false, 0, false, false, false, false, false, false};
 
 } // namespace glimmer

@@ -12,14 +12,25 @@
 
 namespace glimmer {
 
-inline constexpr uint32_t kAllLights = 16; // up to here every light is sampled at what the camera sees
-inline constexpr uint32_t kManyLights = 4; // beyond, so many choices
+inline constexpr uint32_t kAllLights = 16;  // up to here every light is sampled at what the camera sees
+inline constexpr uint32_t kManyLights = 4;  // beyond, so many choices
+inline constexpr uint32_t kPixelPoints = 4; // compete for being lit where bevels glint
 inline constexpr size_t kBranches =
     24; // unfinished branches of one camera sample; beyond, segments are no longer split
 
 /// Stratified sample sets of the camera's own segment; everything later draws independent numbers. The film has 0
 /// and 1.
-enum Set : uint32_t { kSetCollision = 2, kSetPhase, kSetLine = 16, kSetLight = 80, kSetLobe = 128, kSetBsdf };
+enum Set : uint32_t {
+    kSetCollision = 2,
+    kSetPhase,
+    kSetLine = 16,
+    kSetLight = 80,
+    kSetLobe = 128, // and, by twos, of each branch
+    kSetBsdf,
+    kSetPoint = 160,
+    kSetPointLobe = 176,
+    kSetPointBsdf
+};
 
 /// The branches of one sample, kept from sample to sample so that the path loop allocates nothing.
 template <class State>
@@ -34,8 +45,8 @@ class PathSample {
     using State = PathState<F>;
 
     PathSample(const PathWork &work, Sampler &sampler, RayCounter &rays)
-        : scene_(work.scene), limits_(work.limits), switches_(work.options), pool_(work.pool),
-          seen_part_(work.seen_part), sampler_(sampler), rays_(rays) {
+        : scene_(work.scene), limits_(work.limits), switches_(work.options), plan_(work.plan), pool_(work.pool),
+          pixel_x_(work.pixel_x), pixel_y_(work.pixel_y), seen_part_(work.seen_part), sampler_(sampler), rays_(rays) {
         if (F.fog && scene_.medium) {
             const Rgb &s = scene_.medium->sigma_t;
             sigma_ = std::min(s.r, std::min(s.g, s.b));
@@ -45,6 +56,9 @@ class PathSample {
     FilmSample run(const State &camera) {
         stack_.clear();
         push(camera);
+        if constexpr (F.surfaces)
+            if (plan_.light_pixel)
+                light_pixel();
         uint64_t vertices = 0;
         while (!stack_.empty() && ++vertices < kVertexGuard && (vertices % kVerticesALook || !rays_.stopped())) {
             State next = stack_.back();
@@ -93,6 +107,8 @@ class PathSample {
     void add_lamps(const State &state, float end, const Homogeneous *fog);
     void add_infinity(const State &state, const Homogeneous *fog);
     void add_seen(const State &state, const Rgb &radiance, float distance, const Homogeneous *fog);
+    /// False only where it certainly does not.
+    bool may_meet_light(const Ray &ray) const;
     /// The weight of a light met by chance against having been sampled from the vertex before.
     float direction_weight(const State &state, uint32_t light, uint32_t triangle, float distance, float cosine) const;
 
@@ -149,6 +165,16 @@ class PathSample {
 
     // -- Surfaces
     // --------------------------------------------------------------------------------------------------------
+    /// The light straight from lights on what the camera sees first, at one of several points of the pixel.
+    void light_pixel();
+    void light_surface(const State &state, const Interaction &surface);
+    /// A surface as it is seen along a ray. All materials but glass are two-sided: both normals turn to the viewer.
+    struct Facing {
+        Frame frame;     ///< about the normal that it is shaded with
+        Vec3f geometric; ///< the true normal
+        Vec3f wo;        ///< to the viewer, in the frame
+    };
+    static std::optional<Facing> face(const Interaction &surface, const Vec3f &direction);
     void note_first_surface(const Interaction &surface);
     /// What of a surface is left to scatter: held, where splats bring the rest; unheld, where light vertices have
     /// brought theirs (held_share.h).
@@ -165,8 +191,11 @@ class PathSample {
         return shining_sphere ? surface.origin_towards(geometric) : surface.position;
     }
     /// The light of `branches` samples of the BSDF comes in beside it.
-    void sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
-                          const Vec3f &geometric, const Vec3f &wo, uint32_t branches, Lobes lobes);
+    void sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf, const Facing &facing,
+                          uint32_t branches, Lobes lobes);
+    /// On along a sample of a rough lobe, of that density per solid angle; of a mirror or glass.
+    void leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi, float pdf);
+    void leave_specular(State &state, const Interaction &surface, const Vec3f &wi);
     void pass_glass(State &state, const Interaction &surface, const Material &material);
 
     // -- Shared
@@ -190,7 +219,9 @@ class PathSample {
     const Scene &scene_;
     const DepthLimits &limits_;
     const PathOptions &switches_;
+    const PathPlan &plan_;
     const LightPoolBlock *pool_; ///< null: plain paths
+    uint32_t pixel_x_, pixel_y_;
     float seen_part_; ///< of the radiance of a sphere that the camera's own ray meets; other rays bring the rest
     Sampler &sampler_;
     RayCounter &rays_;

@@ -29,8 +29,9 @@ void PathSample<F>::follow(State &state) {
     } else {
         add_infinity(state, fog);
     }
-    if (state.depth >= limits_.depth)
+    if (state.depth >= limits_.depth || state.met == Met::alone)
         return;
+    state.met = Met::counted;
 
     if (fog && fog->scatters() && state.scatter < limits_.scatter) {
         const bool split = pooled() || (options().split && state.direct_view() && stack_.size() < kBranches);
@@ -55,6 +56,22 @@ void PathSample<F>::follow(State &state) {
         state.exempt *= least_absorbed(*fog, end);
     if constexpr (F.surfaces)
         scatter_at_surface(state, *surface);
+}
+
+template <Features F>
+bool PathSample<F>::may_meet_light(const Ray &ray) const {
+    if (scene_.lights.size() > kAllLights)
+        return true;
+    for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+        const LightBound &b = scene_.lights.bound(i);
+        const Vec3f way = b.center - ray.origin;
+        constexpr float kWider = 1.001f; // than all rounding, at the price of a ray now and then
+        const float radius2 = b.radius * b.radius * kWider + 1e-6f * length_squared(way);
+        if (b.infinite || length_squared(way) <= radius2 ||
+            (dot(way, ray.direction) > 0 && length_squared(cross(way, ray.direction)) <= radius2))
+            return true;
+    }
+    return false;
 }
 
 template <Features F>
@@ -122,6 +139,8 @@ float PathSample<F>::direction_weight(const State &state, uint32_t light, uint32
                                       float cosine) const {
     if constexpr (F.meets_lights()) {
         const auto &o = state.origin;
+        if (state.met == Met::elsewhere)
+            return 0;
         if (o.kind == DirectionKind::specular || light == kNone)
             return 1;
         const float at_light =

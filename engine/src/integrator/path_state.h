@@ -46,6 +46,13 @@ struct DirectionOrigin {
 /// What scattered first, specular surfaces apart.
 enum class First : uint8_t { none, surface, fog };
 
+/// Lights that a segment meets by chance.
+enum class Met : uint8_t {
+    counted,
+    elsewhere, ///< other samples bring all of their light
+    alone      ///< the segment is wanted for nothing else
+};
+
 template <Features F>
 struct PathState {
     Ray ray;
@@ -55,6 +62,7 @@ struct PathState {
     [[no_unique_address]] std::conditional_t<F.meets_lights(), DirectionOrigin<F>, Absent<1>> origin;
     uint32_t depth = 0, scatter = 0; ///< vertices so far; in the fog
     First first = First::none;
+    Met met = Met::counted;
     uint32_t order = 0; ///< vertices since then
     uint32_t chain = 0; ///< mirrors and glass in a row, up to here
     [[no_unique_address]] std::conditional_t<F.glass, GlassStack, NoGlass> glass;

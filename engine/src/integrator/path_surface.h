@@ -25,6 +25,21 @@ void PathSample<F>::note_first_surface(const Interaction &surface) {
 }
 
 template <Features F>
+auto PathSample<F>::face(const Interaction &surface, const Vec3f &direction) -> std::optional<Facing> {
+    const Vec3f wo = -direction;
+    const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
+    const Vec3f geometric = surface.geometric_normal * side;
+    Vec3f shading = surface.shading_normal * side;
+    if (!is_above_horizon(shading, wo))
+        shading = geometric;
+    const Frame frame(shading);
+    const Vec3f wo_local = frame.to_local(wo);
+    if (!(wo_local.z > 0))
+        return std::nullopt;
+    return Facing{frame, geometric, wo_local};
+}
+
+template <Features F>
 void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, Lobes lobes) {
     const Material &material = scene_.materials[surface.material];
     if constexpr (F.glass)
@@ -37,24 +52,18 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
     if (bsdf.empty() || (lobes == Lobes::unheld && is_held(peak(bsdf))))
         return;
     const bool camera = state.depth == 0;
-    const Vec3f wo = -state.ray.direction;
-    // All materials but glass are two-sided: both normals turn to the viewer.
-    const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
-    const Vec3f geometric = surface.geometric_normal * side;
-    Vec3f shading = surface.shading_normal * side;
-    if (!is_above_horizon(shading, wo))
-        shading = geometric;
-    const Frame frame(shading);
-    const Vec3f wo_local = frame.to_local(wo);
-    if (!(wo_local.z > 0))
+    const auto facing = face(surface, state.ray.direction);
+    if (!facing)
         return;
+    const auto &[frame, geometric, wo_local] = *facing;
     if (state.direct_view())
         result_.albedo = albedo(bsdf);
 
     // Where mirrors could send each branch to the next surface that branches, one goes on.
-    const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? options().surface_branches : 1;
-    if (!is_specular(bsdf))
-        sample_lights_at(state, surface, bsdf, frame, geometric, wo_local, branches, lobes);
+    const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? plan_.branches : 1;
+    const bool lit = camera && plan_.light_pixel;
+    if (!is_specular(bsdf) && !lit)
+        sample_lights_at(state, surface, bsdf, *facing, branches, lobes);
 
     for (uint32_t k = 0; k < branches; ++k) {
         const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe + 2 * k) : sampler_.next_1d(),
@@ -71,28 +80,66 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
             next.beta *= left_of(lobes, held_share(s->weight * s->pdf, wo_local.z, s->wi.z));
         if (!survives(next, surface.position) || (s->specular && !survives_chain(next)))
             continue;
-        next.ray = {surface.origin_towards(wi), wi};
-        ++next.depth;
-        next.origin = {};
-        if (s->specular) {
-            next.order += state.direct_view() ? 0 : 1;
-        } else {
-            next.chain = 0;
-            next.origin.kind = DirectionKind::surface;
-            next.origin.all_lights = every_light(true) || state.direct_view();
-            next.origin.pdf = s->pdf * float(branches);
-            next.origin.position = lit_point(surface, geometric);
-            if (state.direct_view())
-                next.first = First::surface;
-            ++next.order;
-        }
+        next.met = lit && !s->specular ? Met::elsewhere : Met::counted;
+        if (s->specular)
+            leave_specular(next, surface, wi);
+        else
+            leave_rough(next, surface, geometric, wi, s->pdf * float(branches));
         push(next);
     }
 }
 
 template <Features F>
-void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf, const Frame &frame,
-                                     const Vec3f &geometric, const Vec3f &wo, uint32_t branches, Lobes lobes) {
+void PathSample<F>::leave_specular(State &state, const Interaction &surface, const Vec3f &wi) {
+    state.ray = {surface.origin_towards(wi), wi};
+    state.origin = {};
+    state.order += state.direct_view() ? 0 : 1;
+    ++state.depth;
+}
+
+template <Features F>
+void PathSample<F>::leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi,
+                                float pdf) {
+    state.ray = {surface.origin_towards(wi), wi};
+    state.origin = {};
+    state.origin.kind = DirectionKind::surface;
+    state.origin.all_lights = every_light(true) || state.direct_view();
+    state.origin.pdf = pdf;
+    state.origin.position = lit_point(surface, geometric);
+    state.chain = 0;
+    if (state.direct_view())
+        state.first = First::surface;
+    ++state.order;
+    ++state.depth;
+}
+
+template <Features F>
+void PathSample<F>::light_surface(const State &state, const Interaction &surface) {
+    const Material &material = scene_.materials[surface.material];
+    const Bsdf bsdf = scene_.bsdf(material);
+    const auto facing = face(surface, state.ray.direction);
+    if (material.kind == MaterialKind::glass || is_specular(bsdf) || !facing)
+        return;
+    sample_lights_at(state, surface, bsdf, *facing, 1, Lobes::all);
+    const auto s =
+        sample(bsdf, facing->wo, sampler_.stratified_1d(kSetPointLobe), sampler_.stratified_2d(kSetPointBsdf));
+    if (!s || s->specular)
+        return;
+    const Vec3f wi = normalize(facing->frame.to_world(s->wi));
+    if (!(dot(wi, facing->geometric) > 0))
+        return;
+    State next = state;
+    next.met = Met::alone;
+    next.beta *= s->weight;
+    leave_rough(next, surface, facing->geometric, wi, s->pdf);
+    if (may_meet_light(next.ray))
+        push(next);
+}
+
+template <Features F>
+void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf, const Facing &facing,
+                                     uint32_t branches, Lobes lobes) {
+    const auto &[frame, geometric, wo] = facing;
     if (scene_.lights.size() == 0)
         return;
     const bool camera = state.depth == 0, all = state.direct_view();
@@ -105,7 +152,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
     };
     std::array<Candidate, kAllLights> candidates;
     uint32_t count = 0;
-    const bool few_rays = !all && every_light(true);
+    const bool few_rays = (!all || (camera && plan_.light_pixel)) && every_light(true);
     for (uint32_t i = 0; i < choices(all || few_rays); ++i) {
         const LightChoice choice = choose(i, all || few_rays, x);
         const auto light =
@@ -156,10 +203,7 @@ void PathSample<F>::pass_glass(State &state, const Interaction &surface, const M
         state.glass = crossing.beyond;
     if (!survives(state, surface.position) || !survives_chain(state))
         return;
-    state.ray = {surface.origin_towards(wi), wi};
-    state.origin = {};
-    state.order += state.direct_view() ? 0 : 1;
-    ++state.depth;
+    leave_specular(state, surface, wi);
     push(state);
 }
 

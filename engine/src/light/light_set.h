@@ -41,9 +41,11 @@ class LightSet {
     LightChoice choose(const Vec3f &origin, const Vec3f &direction, float t_max, float sigma, float u) const;
     float probability(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max, float sigma) const;
 
+    /// About the irradiance that a light could bring to x.
+    float weigh_point(uint32_t light, const Vec3f &x, float sigma) const;
+
   private:
     using Weights = std::array<float, kWeighedLights>;
-    float weigh_point(uint32_t light, const Vec3f &x, float sigma) const;
     float weigh_segment(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max, float sigma) const;
 
     std::vector<Light> lights_;
