@@ -11,6 +11,9 @@ namespace glimmer {
 
 namespace {
 
+// Where surfaces scatter too, much of the error is theirs: 3 gathers give 1 % to 5 % less variance at equal cost over
+// plates, and 4 % to 9 % more in thick fog and on a rough field. In fog alone 6 give .90 of the variance of 4.
+constexpr uint32_t kGathers = 4, kGathersInFogAlone = 6;
 constexpr uint32_t kImportancePoints = 32; // seen points that steer the light paths
 constexpr uint32_t kBlockPoints = 12;      // seen points that stand for a block
 constexpr uint32_t kPixelsPerPath = 6;     // light paths cost about a tenth of the camera's work then
@@ -42,6 +45,7 @@ LightPool::LightPool(const Scene &scene, const GlassStack &around_camera)
     : scene_(scene), around_camera_(around_camera) {
     const FilmSettings &film = scene.film;
     settings_.paths = std::clamp(film.crop_width * film.crop_height / kPixelsPerPath, 512u, kMostPaths);
+    settings_.gathers = scene.has_surfaces ? kGathers : kGathersInFogAlone;
     set_bounds();
 }
 

@@ -12,7 +12,7 @@ namespace glimmer {
 
 struct PoolSettings {
     uint32_t paths = 0;     ///< light paths a pass
-    uint32_t gathers = 4;   ///< fog points on a segment that the camera sees directly
+    uint32_t gathers = 4;   ///< (see LightPool) fog points on a segment that the camera sees directly
     uint32_t sub_pools = 8; ///< each gather takes one of them, so that neighbours differ
     /// In a sub-pool; fog_picks a multiple of 16 (simd/loops.h).
     static constexpr uint32_t fog_picks = 128, surface_picks = 8;
