@@ -60,9 +60,10 @@ BlockWorld &hazy_field() {
 }
 
 auto tracer(BlockWorld &w, const PathKernel &kernel) {
-    return [&w, kernel](const CameraRay &camera, Sampler &sampler) {
+    return [&w, kernel, plan = plan_path(w.scene, kAllEstimators)](const CameraRay &camera, Sampler &sampler) {
         static constexpr DepthLimits kNoLimits;
-        return kernel.sample({w.scene, kNoLimits, kAllEstimators, w.pool(), 1}, camera.ray, {}, sampler, w.rays);
+        const PathWork work{w.scene, kNoLimits, kAllEstimators, plan, w.pool(), camera.pixel_x, camera.pixel_y, 1};
+        return kernel.sample(work, camera.ray, {}, sampler, w.rays);
     };
 }
 

@@ -25,7 +25,7 @@ namespace glimmer {
 namespace {
 
 constexpr uint32_t kWidth = 96, kHeight = 64, kBlockX = 32, kBlockY = 32; // one block is rendered
-constexpr uint32_t kGathers = 4;
+constexpr uint32_t kGathers = 6;
 
 BlockWorld &world() {
     static BlockWorld w(five_moons(kWidth, kHeight), {kBlockX, kBlockY, kBlockSize, kBlockSize});
