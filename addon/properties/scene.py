@@ -21,6 +21,8 @@ def _list_integrators(
         except GlimmerError:
             return [("path", "Path", "The engine's library is missing", 0)]
         for position, (name, text) in enumerate(known):
+            if "-no-" in name:  # less one estimator: for comparisons by the command line
+                continue
             # A file stores the number: the default's is 0, the others' depend on their names, never on their order.
             number = 0 if position == 0 else crc32(name.encode()) & 0x7FFFFFFF
             _integrator_items.append((name, name.replace("_", " ").title(), text, number))

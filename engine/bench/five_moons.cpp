@@ -35,9 +35,8 @@ BlockWorld &world() {
 class Minimal {
   public:
     explicit Minimal(const BlockWorld &w)
-        : scene_(w.scene), pool_(static_cast<const LightPoolBlock &>(*w.block)),
-          seen_lights_(w.scene, PathOptions{}.light_rays), fog_(*w.scene.medium), sigma_s_(fog_.sigma_s.r),
-          sigma_t_(fog_.sigma_t.r) {
+        : scene_(w.scene), pool_(static_cast<const LightPoolBlock &>(*w.block)), seen_lights_(w.scene, kLightRays),
+          fog_(*w.scene.medium), sigma_s_(fog_.sigma_s.r), sigma_t_(fog_.sigma_t.r) {
         const auto &spheres = w.scene.accel->spheres();
         for (uint32_t i = 0; i < kMoons; ++i) {
             const auto &light = std::get<SphereLight>(w.scene.lights[i]);

@@ -36,7 +36,7 @@ std::string version_text() {
 std::string integrator_list() {
     std::string text;
     for (uint32_t i = 0; const auto *info = glimmer_integrator_info(i); ++i)
-        text += padded(info->name, 12) + info->help + (i == 0 ? " (default)\n" : "\n");
+        text += padded(info->name, 24) + info->help + (i == 0 ? " (default)\n" : "\n");
     return text;
 }
 

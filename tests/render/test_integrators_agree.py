@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from addon.scene import description as d
-from tests.engine.library import Scene, rendering
+from tests.engine.library import Scene, engine, rendering
 from tests.render.build import WHITE, Array, Builder, camera, floor, grey, hexagon, octahedron, quad, sky
 from tests.render.statistics import Measurement, Pictures, blocks, check_same
 
@@ -209,6 +209,41 @@ def test_both_integrators(name: str) -> None:
         within={"light by way of metal": 0.065, "glints": 0.04}.get(name, 0.08),
         what=name,
     )
+
+
+def all_estimators_at_work() -> Builder:
+    """Haze over scales that glint, with moons in view."""
+    haze = d.Medium((0.01, 0.02, 0.01), (0.06, 0.05, 0.07))
+    scene = Builder(camera((0, -4, 3), (0, 8, 2.5), 60), 32, 24, medium=haze)
+    scene.mesh(hexagon(0.12, 0.1), d.Conductor(0.05, f0=grey(0.8)), instances=plates(30, 0.25, tilt=0.2))
+    scene.mesh(floor(-0.5, 12, (0, 8)), PLATE).sphere((-3, 11, 4), 0.6, d.Light((6, 1, 0.6)))
+    return scene.sphere((0.5, 16, 6), 0.7, d.Light((3, 3, 9))).sphere((2, 9, 3), 0.4, d.Light((1, 9, 2)))
+
+
+SWITCHES = [
+    "split",
+    "all-lights",
+    "light-rays",
+    "branches",
+    "guided-choice",
+    "lines",
+    "deep-lines",
+    "pixel-points",
+    "light-vertices",
+]
+
+
+def test_switches_are_all_there() -> None:
+    names = [name for name, _ in engine().integrators()]
+    assert names == ["path", "report", *(f"path-no-{switch}" for switch in SWITCHES)]
+
+
+@pytest.mark.parametrize("switch", SWITCHES)
+def test_estimators_change_no_mean(switch: str) -> None:
+    name = f"path-no-{switch}"
+    scene = all_estimators_at_work().done()
+    all_at_work, without = (Pictures(Measurement(scene, integrator, samples=2)) for integrator in ("path", name))
+    check_same(lambda seed: blocks(all_at_work(seed), 8), lambda seed: blocks(without(seed), 8), within=0.08, what=name)
 
 
 def test_where_surfaces_glint() -> None:

@@ -71,9 +71,20 @@ class Integrator {
     virtual std::vector<std::string> left_out() const = 0;
 };
 
-inline constexpr std::array<glimmer_integrator_info_t, 2> kIntegrators{{
+/// The default, the yardstick, and the default less one of its estimators each (path_options.h).
+inline constexpr std::array<glimmer_integrator_info_t, 11> kIntegrators{{
     {"path", "path tracing; fog by light vertices that all pixels share, the camera's segments of it light by light"},
     {"report", "the student report's method, as a yardstick: one light, exponential free flights, balance heuristic"},
+    {"path-no-split",
+     "path, where it comes to free flights at all: direct segments of fog end in it or beyond, not both"},
+    {"path-no-all-lights", "path, but one light a place, not all"},
+    {"path-no-light-rays", "path, but no more camera rays where moons are seen"},
+    {"path-no-branches", "path, but one path goes on from the first surface"},
+    {"path-no-guided-choice", "path, but single lights are chosen all alike"},
+    {"path-no-lines", "path, but no light is sampled along direct segments of fog; so without light vertices"},
+    {"path-no-deep-lines", "path, but none along later segments either; so without light vertices"},
+    {"path-no-pixel-points", "path, but one point of a pixel is lit where bevels glint"},
+    {"path-no-light-vertices", "path, but light scattered more than once comes from paths alone"},
 }};
 
 /// `index` into kIntegrators. full_kernel: the code for all scenes, not what was compiled for ones like this.

@@ -13,7 +13,7 @@ class PathIntegrator final : public Integrator {
   public:
     PathIntegrator(const Scene &scene, const DepthLimits &limits, const PathOptions &options, bool full_kernel)
         : scene_(scene), limits_(limits), options_(options), around_camera_(glass_around(scene, Vec3f())),
-          seen_lights_(scene, around_camera_.empty() && !rays_start_apart() ? options.light_rays : 0) {
+          seen_lights_(scene, around_camera_.empty() && !rays_start_apart() ? kLightRays * options.light_rays : 0) {
         if (options_.light_vertices && options_.line_lights && options_.deep_line_lights)
             pool_ = plan_light_pool(scene, limits, around_camera_);
         plan_ = plan_path(scene, options);

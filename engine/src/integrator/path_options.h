@@ -2,8 +2,6 @@
 // The estimators of the path integrator that can be switched.
 #pragma once
 
-#include <cstdint>
-
 namespace glimmer {
 
 /// The estimators that can be switched, one by one: each changes noise and time, never the mean.
@@ -11,7 +9,7 @@ struct PathOptions {
     bool split = true;         ///< direct segments of fog: both ends are followed; else one, by free flight
     bool all_lights = true;    ///< every light is sampled at surfaces (with about two shadow rays beyond the first) and
                                ///< along what the camera sees directly; else one everywhere
-    uint32_t light_rays = 16;  ///< camera rays more in pixels where spheres that shine are seen (seen_lights.h)
+    bool light_rays = true;    ///< more camera rays in pixels where spheres that shine are seen (seen_lights.h)
     bool branch = true;        ///< several paths go on from the first surface (path_plan.h); else one
     bool guided_choice = true; ///< one light is chosen by what it could bring; else all alike
     bool line_lights = true;   ///< light is sampled along direct segments of fog; else at the collision that ends them
@@ -25,6 +23,6 @@ struct PathOptions {
 inline constexpr PathOptions kAllEstimators;
 
 /// The student report's method, kept as a yardstick: one light, exponential free flights, balance heuristic.
-inline constexpr PathOptions kReportOptions{false, false, 0, false, false, false, false, false, false};
+inline constexpr PathOptions kReportOptions{false, false, false, false, false, false, false, false, false};
 
 } // namespace glimmer

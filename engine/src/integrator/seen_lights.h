@@ -7,6 +7,8 @@
 
 namespace glimmer {
 
+inline constexpr uint32_t kLightRays = 16; ///< more, a sample
+
 class SeenLights {
   public:
     /// rays: more camera rays a sample, a square number; 0: none.
