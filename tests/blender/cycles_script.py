@@ -173,13 +173,14 @@ SCENES: dict[str, Callable[[], Any]] = {
     "emissive mesh": emissive_mesh,
     "diffuse": shader("ShaderNodeBsdfDiffuse", Color=OCHRE),
     "glossy": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.5),
-    "glossy at grazing": glossy_at_grazing,
     "mirror": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.0),
     "glass": shader("ShaderNodeBsdfGlass", None, Roughness=0.0, IOR=1.5),
     "mix": mixed,
     "absorption": lambda: fog("ShaderNodeVolumeAbsorption", Color=OCHRE, Density=0.1),
 }
 if bpy.app.version >= (4, 2):
+    # Before, Cycles lost a hundredth of this light: a mean of .2669 +- .0001 in 3.4, .2693 +- .0002 in 4.2, .2695 here.
+    SCENES["glossy at grazing"] = glossy_at_grazing
     # Before, Cycles' points with a radius were discs, and its spots grew darker towards their rim.
     SCENES["bulb"] = lambda: under_lamp("POINT", energy=500.0, shadow_soft_size=0.5, use_soft_falloff=False)
     SCENES["spot"] = lambda: under_lamp("SPOT", energy=500.0, shadow_soft_size=0.0, spot_size=1.2, spot_blend=0.5)
