@@ -141,10 +141,15 @@ def fog_far_beyond_a_screen() -> Builder:
     return scene.sphere((0, 12, 9), 2, d.Light((5, 4, 3)))
 
 
+def add_scales(scene: Builder, metal: d.Surface) -> Builder:
+    """Tilted scales narrower than a pixel, over a floor."""
+    scene.mesh(hexagon(0.12, 0.1), metal, instances=plates(30, 0.25, tilt=0.2))
+    return scene.mesh(floor(-0.5, 12, (0, 8)), PLATE)
+
+
 def glinting_field(medium: d.Medium | None, metal: d.Surface) -> Builder:
-    """Tilted scales narrower than a pixel, lit by lights of all kinds: of each pixel, one of several points is lit."""
-    scene = Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, medium=medium)
-    scene.mesh(hexagon(0.12, 0.1), metal, instances=plates(30, 0.25, tilt=0.2)).mesh(floor(-0.5, 12, (0, 8)), PLATE)
+    """Scales lit by lights of all kinds: of each pixel, one of several points is lit."""
+    scene = add_scales(Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, medium=medium), metal)
     scene.sphere((-3, 11, 4), 0.6, d.Light((6, 1, 0.6))).sphere((0.5, 16, 6), 0.7, d.Light((3, 3, 9)))
     scene.mesh(octahedron((3, 9, 3), 0.5), d.Light((1, 9, 2))).sphere((2, 4, 0.5), 0.5, d.Conductor(0.03, f0=WHITE))
     scene.lamp(d.PointLight("point", (-2, 6, 2.5), (2, 1, 1))).lamp(
@@ -215,8 +220,7 @@ def all_estimators_at_work() -> Builder:
     """Haze over scales that glint, with moons in view."""
     haze = d.Medium((0.01, 0.02, 0.01), (0.06, 0.05, 0.07))
     scene = Builder(camera((0, -4, 3), (0, 8, 2.5), 60), 32, 24, medium=haze)
-    scene.mesh(hexagon(0.12, 0.1), d.Conductor(0.05, f0=grey(0.8)), instances=plates(30, 0.25, tilt=0.2))
-    scene.mesh(floor(-0.5, 12, (0, 8)), PLATE).sphere((-3, 11, 4), 0.6, d.Light((6, 1, 0.6)))
+    add_scales(scene, d.Conductor(0.05, f0=grey(0.8))).sphere((-3, 11, 4), 0.6, d.Light((6, 1, 0.6)))
     return scene.sphere((0.5, 16, 6), 0.7, d.Light((3, 3, 9))).sphere((2, 9, 3), 0.4, d.Light((1, 9, 2)))
 
 

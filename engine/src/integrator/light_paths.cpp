@@ -307,11 +307,9 @@ std::vector<Vec3f> sample_seen_points(const Scene &scene, const Rectangle &pixel
     std::vector<Vec3f> points;
     if (!scene.medium || !around_camera.empty())
         return points;
-    const auto pick = [&](uint32_t first, uint32_t size) {
-        return first + std::min(uint32_t(sampler.next_1d() * float(size)), size - 1);
-    };
     for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t x = pick(pixels.x, pixels.width), y = pick(pixels.y, pixels.height);
+        const uint32_t x = pick_pixel(pixels.x, pixels.width, sampler.next_1d()),
+                       y = pick_pixel(pixels.y, pixels.height, sampler.next_1d());
         const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
         const auto hit = scene.accel->intersect(ray);
         ++rays.rays;

@@ -4,7 +4,6 @@
 #include "integrator/expected_light.h"
 #include "scene/camera_sample.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace glimmer {
@@ -28,13 +27,11 @@ double pixel_contrast(const Scene &scene) {
         const auto hit = scene.accel->intersect(ray);
         return hit ? double(expected_light(scene, scene.interaction(ray, *hit), -ray.direction, 0)) : 0.0;
     };
-    const auto pick = [](uint32_t first, uint32_t size, float u) {
-        return first + std::min(uint32_t(u * float(size)), size - 1);
-    };
     double variance = 0, square = 0;
     for (uint32_t i = 0; i < kPairs; ++i) {
         const Vec2f u = sampler.next_2d();
-        const uint32_t x = pick(film.crop_x, film.crop_width, u.x), y = pick(film.crop_y, film.crop_height, u.y);
+        const uint32_t x = pick_pixel(film.crop_x, film.crop_width, u.x),
+                       y = pick_pixel(film.crop_y, film.crop_height, u.y);
         const double a = expected(x, y), b = expected(x, y);
         if (!std::isfinite(a) || !std::isfinite(b))
             continue;

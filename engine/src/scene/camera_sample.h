@@ -5,11 +5,18 @@
 #include "sampling/warp.h"
 #include "scene/scene.h"
 
+#include <algorithm>
+
 namespace glimmer {
 
 /// pixel: of the whole picture. By filter importance sampling: every sample counts the same and none leaves its pixel's
 /// sum.
 CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens);
+
+/// One of `size` rows or columns of pixels from `first` on.
+inline uint32_t pick_pixel(uint32_t first, uint32_t size, float u) {
+    return first + std::min(uint32_t(u * float(size)), size - 1);
+}
 
 /// The filter's density in one of its two dimensions, per pixel, `offset` pixels from the middle.
 float filter_density(const FilmSettings &film, float offset);
