@@ -10,6 +10,7 @@
 #include "block.h"
 #include "integrator/light_pool.h"
 #include "integrator/path.h"
+#include "integrator/roulette.h"
 #include "integrator/seen_lights.h"
 #include "integrator/surroundings.h"
 #include "light/line_sampler.h"
@@ -25,7 +26,7 @@ namespace glimmer {
 namespace {
 
 constexpr uint32_t kWidth = 96, kHeight = 64, kBlockX = 32, kBlockY = 32; // one block is rendered
-constexpr uint32_t kGathers = 6;
+constexpr uint32_t kGathers = 8;
 
 BlockWorld &world() {
     static BlockWorld w(five_moons(kWidth, kHeight), {kBlockX, kBlockY, kBlockSize, kBlockSize});
@@ -123,7 +124,7 @@ class Minimal {
     }
 
     bool survives(float &beta, float exempt, const Vec3f &x, Sampler &sampler) const {
-        const float weight = std::min(beta / exempt * surroundings_importance(scene_, x), 1.0f);
+        const float weight = std::min(kSparedAtGathers * beta / exempt * surroundings_importance(scene_, x), 1.0f);
         if (!(weight > 0) || (weight < 1 && sampler.next_1d() >= weight))
             return false;
         beta *= weight < 1 ? 1 / weight : 1;

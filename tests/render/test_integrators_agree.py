@@ -232,6 +232,7 @@ SWITCHES = [
     "guided-choice",
     "lines",
     "deep-lines",
+    "late-roulette",
     "pixel-points",
     "light-vertices",
 ]

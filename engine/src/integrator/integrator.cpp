@@ -9,8 +9,15 @@ namespace {
 
 /// What is switched off, from the third of kIntegrators on.
 constexpr std::array kWithout{
-    &PathOptions::split,          &PathOptions::all_lights,  &PathOptions::light_rays,       &PathOptions::branch,
-    &PathOptions::guided_choice,  &PathOptions::line_lights, &PathOptions::deep_line_lights, &PathOptions::pixel_points,
+    &PathOptions::split,
+    &PathOptions::all_lights,
+    &PathOptions::light_rays,
+    &PathOptions::branch,
+    &PathOptions::guided_choice,
+    &PathOptions::line_lights,
+    &PathOptions::deep_line_lights,
+    &PathOptions::late_roulette,
+    &PathOptions::pixel_points,
     &PathOptions::light_vertices,
 };
 static_assert(kIntegrators.size() == 2 + kWithout.size());

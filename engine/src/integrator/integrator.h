@@ -72,7 +72,7 @@ class Integrator {
 };
 
 /// The default, the yardstick, and the default less one of its estimators each (path_options.h).
-inline constexpr std::array<glimmer_integrator_info_t, 11> kIntegrators{{
+inline constexpr std::array<glimmer_integrator_info_t, 12> kIntegrators{{
     {"path", "path tracing; fog by light vertices that all pixels share, the camera's segments of it light by light"},
     {"report", "the student report's method, as a yardstick: one light, exponential free flights, balance heuristic"},
     {"path-no-split",
@@ -83,6 +83,7 @@ inline constexpr std::array<glimmer_integrator_info_t, 11> kIntegrators{{
     {"path-no-guided-choice", "path, but single lights are chosen all alike"},
     {"path-no-lines", "path, but no light is sampled along direct segments of fog; so without light vertices"},
     {"path-no-deep-lines", "path, but none along later segments either; so without light vertices"},
+    {"path-no-late-roulette", "path, but roulette by throughput from the start"},
     {"path-no-pixel-points", "path, but one point of a pixel is lit where bevels glint"},
     {"path-no-light-vertices", "path, but light scattered more than once comes from paths alone"},
 }};

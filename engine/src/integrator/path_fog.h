@@ -19,7 +19,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
     const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
     float looked = 1;
     if (!all && pooled()) { // short segments between plates scatter next to nothing: seldom worth a look
-        looked = survival((Rgb(1) - fog.transmittance(end)) * state.beta, state.exempt, origin);
+        looked = survival((Rgb(1) - fog.transmittance(end)) * state.beta, state.exempt, origin, kSparedInFog);
         if (!(looked > 0) || (looked < 1 && sampler_.next_1d() >= looked))
             return;
     }
@@ -47,7 +47,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
                 split ? collision_pdf(fog, state.beta, end, at.t) : free_flight_pdf(fog, state.beta, at.t);
             if (p_distance > 0) { // of the paths that scatter there roulette leaves this part
                 const Rgb at_collision = state.beta * fog.sigma_s * fog.transmittance(at.t) * (1 / p_distance);
-                p_distance *= survival(at_collision, state.exempt, x);
+                p_distance *= survival(at_collision, state.exempt, x, kSparedInFog);
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
@@ -88,8 +88,8 @@ void PathSample<F>::scatter_in_fog(const State &state, float end, const Homogene
     if (!along)
         sample_light_in_fog(next, x, fog, true);
     else // roulette is part of how light is met by chance: else thin fog keeps a share of it for one sample in millions
-        pdf *= survival(next.beta, next.exempt, x);
-    if (!survives(next, x))
+        pdf *= survival(next.beta, next.exempt, x, kSparedInFog);
+    if (!survives(next, x, kSparedInFog))
         return;
     const bool camera = state.depth == 0;
     const PhaseSample s = HenyeyGreenstein{fog.g}.sample(state.ray.direction, camera ? sampler_.stratified_2d(kSetPhase)

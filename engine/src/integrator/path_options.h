@@ -14,7 +14,8 @@ struct PathOptions {
     bool guided_choice = true; ///< one light is chosen by what it could bring; else all alike
     bool line_lights = true;   ///< light is sampled along direct segments of fog; else at the collision that ends them
     bool deep_line_lights = true; ///< the same for all later segments
-    bool pixel_points = true;     ///< where bevels glint, several points of a pixel compete for being lit; else one is
+    bool late_roulette = true; ///< roulette spares paths until little is left of them (roulette.h); else from the start
+    bool pixel_points = true;  ///< where bevels glint, several points of a pixel compete for being lit; else one is
     bool light_vertices =
         true; ///< light scattered more than once comes from vertices shared by all pixels; else from paths alone
 
@@ -23,6 +24,6 @@ struct PathOptions {
 inline constexpr PathOptions kAllEstimators;
 
 /// The student report's method, kept as a yardstick: one light, exponential free flights, balance heuristic.
-inline constexpr PathOptions kReportOptions{false, false, false, false, false, false, false, false, false};
+inline constexpr PathOptions kReportOptions{false, false, false, false, false, false, false, false, false, false};
 
 } // namespace glimmer

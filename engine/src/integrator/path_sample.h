@@ -5,6 +5,7 @@
 
 #include "integrator/path_kernels.h"
 #include "integrator/path_state.h"
+#include "integrator/roulette.h"
 #include "light/line_sampler.h"
 
 #include <cmath>
@@ -93,7 +94,7 @@ class PathSample {
     /// All light that reaches state.ray.origin scattered, as the fog scatters it there: from the pool, and by a short
     /// ray for what the pool's bounded connections leave out: false where that ends. `scale`: the point is one of so
     /// many. `t`: from where the camera's ray starts, 0 off it, where no splats are.
-    bool gather(State &state, float scale, float t);
+    bool gather(State &state, float scale, float t, float spared);
     /// The share 1 - w(d) of the vertex that a ray from a gather meets; beyond, what no vertex holds (held_share.h).
     void compensate(State &state, const Homogeneous &fog);
     /// The largest transmittance of a channel as far as absorption goes.
@@ -207,11 +208,11 @@ class PathSample {
     /// `moved`: how far the origin was moved off its surface at most. A triangle that shines must not shadow itself, so
     /// the ray ends short of it by all errors of both ends, seen along its plane.
     bool occluded(const Vec3f &origin, const LightSample &light, float moved = 0);
-    /// Russian roulette with survival min(1, weight): a ceiling below 1 would let the weights of high albedos grow
-    /// without bound.
-    bool survives(State &state, const Vec3f &x);
+    /// Russian roulette with survival min(1, spared * weight): a ceiling below 1 would let the weights of high albedos
+    /// grow without bound. spared: see roulette.h.
+    bool survives(State &state, const Vec3f &x, float spared);
     /// The chance of that, for a path of throughput beta at x.
-    float survival(const Rgb &beta, float exempt, const Vec3f &x) const;
+    float survival(const Rgb &beta, float exempt, const Vec3f &x, float spared) const;
     /// The same for one more mirror or glass.
     bool survives_chain(State &state);
     void push(const State &state) { stack_.push_back(state); }

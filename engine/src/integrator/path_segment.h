@@ -174,14 +174,15 @@ bool PathSample<F>::occluded(const Vec3f &origin, const LightSample &light, floa
 }
 
 template <Features F>
-float PathSample<F>::survival(const Rgb &beta, float exempt, const Vec3f &x) const {
-    const float weight = max_component(beta) / exempt * surroundings_importance(scene_, x);
+float PathSample<F>::survival(const Rgb &beta, float exempt, const Vec3f &x, float spared) const {
+    const float early = options().late_roulette ? spared : 1;
+    const float weight = early * max_component(beta) / exempt * surroundings_importance(scene_, x);
     return weight > 0 ? std::min(weight, 1.0f) : 0; // NaN does not live on
 }
 
 template <Features F>
-bool PathSample<F>::survives(State &state, const Vec3f &x) {
-    const float weight = survival(state.beta, state.exempt, x);
+bool PathSample<F>::survives(State &state, const Vec3f &x, float spared) {
+    const float weight = survival(state.beta, state.exempt, x, spared);
     if (!(weight > 0))
         return false;
     if (weight == 1)

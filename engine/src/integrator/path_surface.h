@@ -78,7 +78,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
         next.exempt /= float(branches);
         if (lobes != Lobes::all && !s->specular)
             next.beta *= left_of(lobes, held_share(s->weight * s->pdf, wo_local.z, s->wi.z));
-        if (!survives(next, surface.position) || (s->specular && !survives_chain(next)))
+        if (!survives(next, surface.position, kSparedAtSurfaces) || (s->specular && !survives_chain(next)))
             continue;
         next.met = lit && !s->specular ? Met::elsewhere : Met::counted;
         if (s->specular)
@@ -201,7 +201,7 @@ void PathSample<F>::pass_glass(State &state, const Interaction &surface, const M
     state.exempt *= s.weight.r;
     if (s.transmitted)
         state.glass = crossing.beyond;
-    if (!survives(state, surface.position) || !survives_chain(state))
+    if (!survives(state, surface.position, kSparedAtSurfaces) || !survives_chain(state))
         return;
     leave_specular(state, surface, wi);
     push(state);

@@ -24,16 +24,17 @@ void PathSample<F>::gather_along(const State &state, float end, const Homogeneou
         at.beta *= c.weight * (1 / float(n));
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
         at.first = state.direct_view() ? First::fog : state.first;
-        if (!gather(at, float(n), state.depth == 0 ? c.t : 0))
+        const float spared = state.direct_view() ? kSparedAtGathers : kSparedAtSurfaces;
+        if (!gather(at, float(n), state.depth == 0 ? c.t : 0, spared))
             stack_.pop_back();
     }
 }
 
 template <Features F>
-bool PathSample<F>::gather(State &state, float scale, float t) {
+bool PathSample<F>::gather(State &state, float scale, float t, float spared) {
     const Vec3f x = state.ray.origin;
     state.exempt /= scale;
-    if (!survives(state, x))
+    if (!survives(state, x, spared))
         return false;
     state.exempt *= scale;
     const Rgb value = state.beta * pool_->pool.gather(x, state.ray.direction, sampler_, rays_);
@@ -73,7 +74,7 @@ void PathSample<F>::compensate(State &state, const Homogeneous &fog) {
             return;
         state.ray.origin = state.ray.origin + state.ray.direction * flight.t;
         sample_light_in_fog(state, state.ray.origin, fog, false);
-        if (gather(state, 1, 0))
+        if (gather(state, 1, 0, kSparedAtGathers))
             push(state);
     } else if constexpr (F.surfaces) {
         if (!hit)
