@@ -19,6 +19,9 @@ constexpr float kGuidedStart = 0.85f; // of the paths start by importance, the r
 constexpr uint32_t kBeams = 32;       // of what no vertex holds, at a surface; times the path's weight, up to so much:
 constexpr float kMostBeams = 64;      // a path straight from a moon far off in the haze may be worth thousands
 constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
+// Paths live on with that much less than the window asks for, and split the sooner: at equal cost the error of pixels
+// is the same, .92 in thick fog, that of blocks, which all come from the same paths, .74 there and .9 over plates.
+constexpr float kSpared = 1.5f;
 
 /// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way
 /// of mirrors and glass alone is left out: no path from the camera meets it, and so nothing would give back what
@@ -80,7 +83,8 @@ class LightPath {
     /// The weight window: what a path carries to x, relative to what the importance of the place asks for. Below 1 it
     /// lives on with that probability; far above, it is worth several paths.
     float survive(Branch &path, const Vec3f &x) {
-        const float weight = max_component(path.power) * importance_(x) * surroundings_importance(scene_, x) / target_;
+        const float weight =
+            kSpared * max_component(path.power) * importance_(x) * surroundings_importance(scene_, x) / target_;
         if (!(weight > 0) || (weight < 1 && sampler_.next_1d() >= weight))
             return 0;
         if (weight >= 1)
