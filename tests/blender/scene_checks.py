@@ -120,7 +120,7 @@ def furnace(picture: Path) -> dict[str, Any]:
     """Mean and standard error of the furnace over renders by Glimmer, a seed each: pixels share light paths, so theirs
     are not independent.
     """
-    renders = 16
+    renders = 64
     width, height = 96, 54
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / "furnace.blend"))
     scene = bpy.context.scene
@@ -128,7 +128,7 @@ def furnace(picture: Path) -> dict[str, Any]:
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.image_settings.color_depth = "32"
     scene.render.filepath = str(picture)
-    scene.glimmer.samples = 16
+    scene.glimmer.samples = 32
     means = []
     for seed in range(renders):
         scene.glimmer.seed = seed

@@ -112,7 +112,7 @@ def test_the_furnace_is_white(blender: Path, library_dir: Path, tmp_path: Path) 
     """
     assert library_dir.is_dir()
     found = run(executable(blender), "furnace", tmp_path / "furnace.json")
-    assert 0 < found["error"] < 0.01
+    assert 0 < found["error"] < 0.002
     assert abs(found["mean"] - 1) < stats.t.isf(0.5e-4, found["renders"] - 1) * found["error"], found
 
 
