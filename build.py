@@ -324,7 +324,7 @@ def lint() -> None:
     """Every check runs, also after one has failed."""
     install_packages(wanted_packages(("build", "test"), None))
     python = virtual_environment("test")
-    sources = sorted(path for suffix in ("cpp", "h", "c") for path in ENGINE.rglob(f"*.{suffix}"))
+    sources = sorted(path for suffix in ("cpp", "h", "inl", "c") for path in ENGINE.rglob(f"*.{suffix}"))
     checks: tuple[Sequence[str | Path], ...] = (
         [python, "-m", "ruff", "check", ROOT],
         [python, "-m", "ruff", "format", "--check", ROOT],

@@ -2,9 +2,9 @@
 // Camera samples of one block of pixels, for benchmarks of the path integrator.
 #pragma once
 
-#include "integrator/path.h"
-#include "integrator/path_kernels.h"
-#include "scene/camera_sample.h"
+#include "camera/camera_sample.h"
+#include "integrator/path/kernels.h"
+#include "integrator/path/path_integrator.h"
 
 #include <benchmark/benchmark.h>
 
@@ -14,18 +14,18 @@ namespace glimmer {
 struct BlockWorld {
     BlockWorld(const SceneDescription &description, const Rectangle &pixels_) : scene(description, 0), pixels(pixels_) {
         if (integrator->shares()) {
-            pass = integrator->prepare_pass(1, 0, stop, rays);
+            pass = integrator->prepare_wave(1, 0, stop, rays);
             block = integrator->prepare_block(*pass, pixels, rays);
         }
     }
-    const LightPoolBlock *pool() const { return static_cast<const LightPoolBlock *>(block.get()); }
+    const LightVertexBlock *pool() const { return static_cast<const LightVertexBlock *>(block.get()); }
 
     Scene scene;
     Rectangle pixels;
     std::unique_ptr<const Integrator> integrator = make_path_integrator(scene, {}, {});
-    RayCounter rays;
+    TraceContext rays;
     std::atomic<bool> stop{false};
-    std::unique_ptr<const PassData> pass;
+    std::unique_ptr<const WaveData> pass;
     std::unique_ptr<const BlockData> block;
 };
 

@@ -4,13 +4,13 @@
 // is checked first.
 //
 // Measured on two busy cores, medians of 15 by turns: the full kernel takes 1.04 of the CPU time of the one selected
-// for moons in fog, 1.04 on the field, 1.01 on the hazy field. No single feature put back shows beyond the noise of 3 %
-// but other lights on the field (1.02 to 1.04). Not worth a feature: fog known to be grey and isotropic, and AOVs that
-// nobody asked for (both 1.00). path_kernels.cpp takes 6.4, 7.4, 8.2 and 10.6 CPU seconds to compile with 1 to 4
-// kernels (the whole engine about 45); libglimmer.so has 720, 750, 775 and 857 kB.
+// for moons in medium, 1.04 on the field, 1.01 on the hazy field. No single feature put back shows beyond the noise of
+// 3 % but other lights on the field (1.02 to 1.04). Not worth a feature: medium known to be grey and isotropic, and
+// AOVs that nobody asked for (both 1.00). path_kernels.cpp takes 6.4, 7.4, 8.2 and 10.6 CPU seconds to compile with 1
+// to 4 kernels (the whole engine about 45); libglimmer.so has 720, 750, 775 and 857 kB.
 #include "block.h"
 #include "five_moons.h"
-#include "integrator/path_compiled.h"
+#include "integrator/path/kernel.inl"
 #include "plates.h"
 
 #include <benchmark/benchmark.h>
@@ -24,7 +24,7 @@ namespace {
 constexpr Rectangle kPixels{64, 64, kBlockSize, kBlockSize};
 
 /// A field of rough metal under three moons.
-SceneDescription moonlit_plates(bool fog) {
+SceneDescription moonlit_plates(bool medium) {
     SceneDescription scene = plates(60);
     MaterialDescription &metal = scene.materials[0];
     metal.type = GLIMMER_CONDUCTOR;
@@ -35,7 +35,7 @@ SceneDescription moonlit_plates(bool fog) {
     }
     for (uint32_t i = 0; i < 3; ++i)
         add_moon(scene, 2.1f * float(i), {-20.0 + 20 * i, 40, 12.0 + i}, 2);
-    if (fog)
+    if (medium)
         scene.medium = MediumDescription{{0.001, 0.001, 0.001}, {0.005, 0.0055, 0.0065}, 0};
     const double down = 0.1,
                  rows[16] = {1,   0, 0, 0, 0, std::sin(down), -std::cos(down), -4, 0, std::cos(down), std::sin(down),
@@ -60,9 +60,9 @@ BlockWorld &hazy_field() {
 }
 
 auto tracer(BlockWorld &w, const PathKernel &kernel) {
-    return [&w, kernel, plan = plan_path(w.scene, kAllEstimators)](const CameraRay &camera, Sampler &sampler) {
+    return [&w, kernel, plan = plan_splitting(w.scene, kAllEstimators)](const CameraRay &camera, Sampler &sampler) {
         static constexpr DepthLimits kNoLimits;
-        const PathWork work{w.scene, kNoLimits, kAllEstimators, plan, w.pool(), camera.pixel_x, camera.pixel_y, 1};
+        const PathContext work{w.scene, kNoLimits, kAllEstimators, plan, w.pool(), camera.pixel_x, camera.pixel_y, 1};
         return kernel.sample(work, camera.ray, {}, sampler, w.rays);
     };
 }
@@ -72,18 +72,18 @@ void add(const std::string &scene, BlockWorld &(*world)(), const PathKernel &ker
         BlockWorld &w = world();
         if (!covers(kernel.features, needed_by(w.scene, {}, w.pool() != nullptr)))
             return state.SkipWithError("the scene needs features that this kernel has not");
-        if (!same_bits(w, tracer(w, kernel), tracer(w, path_kernel(kEverything))))
+        if (!same_bits(w, tracer(w, kernel), tracer(w, path_kernel(kAllFeatures))))
             return state.SkipWithError("other bits than the full kernel's");
         run_block(state, w, tracer(w, kernel));
     });
 }
 
-constexpr Features with(Features f, size_t feature) {
+constexpr KernelFeatures with(KernelFeatures f, size_t feature) {
     f.*kFeatureTexts[feature].feature = true;
     return f;
 }
 
-template <Features F, size_t... I>
+template <KernelFeatures F, size_t... I>
 void add_all(const char *scene, BlockWorld &(*world)(), std::index_sequence<I...>) {
     add(scene, world, compiled<F>("selected"));
     const auto put_back = [&]<size_t i>(std::integral_constant<size_t, i>) {
@@ -91,14 +91,14 @@ void add_all(const char *scene, BlockWorld &(*world)(), std::index_sequence<I...
             add(scene, world, compiled<with(F, i)>(kFeatureTexts[i].name));
     };
     (put_back(std::integral_constant<size_t, I>()), ...);
-    add(scene, world, path_kernel(kEverything));
+    add(scene, world, path_kernel(kAllFeatures));
 }
 
 [[maybe_unused]] const bool added = [] {
     constexpr auto all = std::make_index_sequence<kFeatureTexts.size()>();
-    add_all<Features{.fog = true}>("moons", moons, all);
-    add_all<Features{.surfaces = true, .bvh = true}>("field", field, all);
-    add_all<Features{.fog = true, .surfaces = true, .bvh = true}>("hazy_field", hazy_field, all);
+    add_all<KernelFeatures{.medium = true}>("moons", moons, all);
+    add_all<KernelFeatures{.surfaces = true, .bvh = true}>("field", field, all);
+    add_all<KernelFeatures{.medium = true, .surfaces = true, .bvh = true}>("hazy_field", hazy_field, all);
     return true;
 }();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Five moons and nothing but fog.
+// Five moons and nothing but medium.
 #pragma once
 
 #include "empty_scene.h"

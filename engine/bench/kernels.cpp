@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The small functions of the path loop, one call at a time over inputs that fit in the cache.
+#include "integrator/simd/kernels.h"
+
 #include "bsdf/conductor.h"
 #include "inputs.h"
-#include "light/line_sampler.h"
-#include "simd/float8.h"
-#include "simd/loops.h"
+#include "light/equiangular_table.h"
+#include "math/simd/float8.h"
 
 #include <array>
 #include <benchmark/benchmark.h>
@@ -43,10 +44,10 @@ void ggx_sample(benchmark::State &state) {
 BENCHMARK(ggx_sample);
 
 void line_table(benchmark::State &state) {
-    const Homogeneous medium(Rgb(0.0015f), Rgb(0.0135f), 0);
+    const HomogeneousMedium medium(Rgb(0.0015f), Rgb(0.0135f), 0);
     const auto direction = upper_directions(1), place = upper_directions(2);
     run(state, [&](size_t i) {
-        const LineSampler line(medium, {0, 0, 0}, direction[i], 100, place[i] * 30, 2);
+        const EquiangularTable line(medium, {0, 0, 0}, direction[i], 100, place[i] * 30, 2);
         return line.sample(uniform(3, i));
     });
 }
@@ -54,9 +55,9 @@ BENCHMARK(line_table);
 
 /// A gather's connections to the 128 vertices of a sub-pool; argument: whether in AVX-512.
 void connections(benchmark::State &state) {
-    if (state.range(0) && !loops_avx512())
+    if (state.range(0) && !simd_kernels_avx512())
         return state.SkipWithError("this processor has no AVX-512");
-    const Loops &of_set = state.range(0) ? kLoopsAvx512 : kLoopsAvx2;
+    const SimdKernels &of_set = state.range(0) ? kSimdKernelsAvx512 : kSimdKernelsAvx2;
     constexpr size_t count = 128, pools = 8;
     std::array<std::vector<float>, 6> columns;
     for (size_t c = 0; c < columns.size(); ++c)

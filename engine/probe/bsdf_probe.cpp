@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bsdf/bsdf.h"
-#include "bsdf/glass.h"
+#include "bsdf/dielectric.h"
 #include "probe.h"
 
 #include <vector>
@@ -28,10 +28,10 @@ static std::vector<WeightedLobe> make(const probe_lobe *lobes, uint64_t count) {
             lobe = Conductor{l.alpha,       l.use_f0 != 0,  load_rgb(l.eta),
                              load_rgb(l.k), load_rgb(l.f0), static_cast<Masking>(l.masking)};
         else
-            lobe = ReportMetal{load_rgb(l.color), load_rgb(l.f0), l.alpha};
+            lobe = BaselineMetal{load_rgb(l.color), load_rgb(l.f0), l.alpha};
         out.push_back({lobe, l.weight, 0});
     }
-    set_selection(out);
+    set_probabilities(out);
     return out;
 }
 
@@ -61,11 +61,11 @@ PROBE void probe_bsdf_sample(const probe_lobe *lobes, uint64_t count, const floa
 }
 
 /// select [count], albedo [3], flags [2]: is_specular, has_specular.
-PROBE void probe_bsdf_describe(const probe_lobe *lobes, uint64_t count, float *select, float *albedo_out,
+PROBE void probe_bsdf_describe(const probe_lobe *lobes, uint64_t count, float *probability, float *albedo_out,
                                int32_t *flags) {
     const std::vector<WeightedLobe> bsdf = make(lobes, count);
     for (uint64_t i = 0; i < count; ++i)
-        select[i] = bsdf[i].select;
+        probability[i] = bsdf[i].probability;
     store(albedo_out, albedo(Bsdf(bsdf)));
     flags[0] = is_specular(Bsdf(bsdf));
     flags[1] = has_specular(Bsdf(bsdf));
@@ -88,7 +88,7 @@ PROBE void probe_ggx_d(const float *h, float alpha, uint64_t n, float *out) {
 PROBE void probe_glass(const float *wo, const float *eta, int schlick, const float *u, uint64_t n, float *wi,
                        float *weight, float *probability, int32_t *transmitted) {
     for (uint64_t i = 0; i < n; ++i) {
-        const GlassSample s = sample_glass(load3(wo + 3 * i), eta[i], schlick != 0, u[i]);
+        const DielectricSample s = sample_dielectric(load3(wo + 3 * i), eta[i], schlick != 0, u[i]);
         store(wi + 3 * i, s.wi);
         store(weight + 3 * i, s.weight);
         probability[i] = s.probability;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/student_t.h"
 #include "film/error.h"
-#include "film/student.h"
 #include "film_probe.h"
 #include "render/rate.h"
 

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "light/line_sampler.h"
+#include "integrator/simd/kernels.h"
+#include "light/equiangular_table.h"
 #include "probe.h"
-#include "simd/loops.h"
 
 #include <vector>
 
 using namespace glimmer;
 using namespace glimmer::probe;
 
-static LoopMedium medium(const float *m) {
+static SimdMedium medium(const float *m) {
     return {m[0], m[1], m[2], m[3], m[0] == m[1] && m[1] == m[2]};
 }
 /// columns [6 or 9, n]: position, power, direction of flight.
-static FogColumns columns(const float *c, int directed, uint64_t n) {
+static VertexColumns columns(const float *c, int directed, uint64_t n) {
     const float *d = directed ? c + 6 * n : nullptr;
     return {c, c + n, c + 2 * n, c + 3 * n, c + 4 * n, c + 5 * n, d, directed ? d + n : d, directed ? d + 2 * n : d};
 }
-static const Loops &of(int wide) {
-    return wide ? kLoopsAvx512 : kLoopsAvx2;
+static const SimdKernels &of(int wide) {
+    return wide ? kSimdKernelsAvx512 : kSimdKernelsAvx2;
 }
 
 PROBE int probe_has_avx512() {
-    return loops_avx512() != nullptr;
+    return simd_kernels_avx512() != nullptr;
 }
 
 /// m [4]: extinction by channel, g; point [6]; n a multiple of 16; parts [n]; sums [20]: r, g, b, part, by lane.
@@ -30,7 +30,7 @@ PROBE void probe_connect(int wide, const float *m, const float *vertices, int di
     const SeenPoint p{point[0], point[1], point[2], point[3], point[4], point[5]};
     const ConnectionSums s = of(wide).connect(medium(m), columns(vertices, directed, n), n, p, bound, parts);
     sums[0] = s.r, sums[1] = s.g, sums[2] = s.b, sums[3] = s.part;
-    for (size_t i = 0; i < kLoopLanes; ++i)
+    for (size_t i = 0; i < kSimdLanes; ++i)
         sums[4 + i] = s.by_lane[i];
 }
 
@@ -45,26 +45,26 @@ PROBE void probe_weigh(int wide, const float *m, const float *vertices, int dire
 
 /// shape [8]: t_foot, h, h2, radius, distance, cut, x_first, x_step; density [17]: at the nodes, and the last source.
 PROBE void probe_line_nodes(int wide, const float *m, const double *shape, float *density) {
-    const LineShape s{shape[0], shape[1], shape[2], shape[3], shape[4], shape[5], shape[6], shape[7]};
-    density[kLineNodes] = of(wide).line_nodes(medium(m), s, density);
+    const TableShape s{shape[0], shape[1], shape[2], shape[3], shape[4], shape[5], shape[6], shape[7]};
+    density[kTableNodes] = of(wide).table_nodes(medium(m), s, density);
 }
 
 /// sigma [2, 3]: absorption, scattering; segment [7]: origin, direction, t_max; light [4]: centre, radius; u, t, pdf
 /// [n].
 PROBE void probe_line(const float *sigma, float g, const float *segment, const float *light, const float *u, uint64_t n,
                       float *t, float *pdf) {
-    const LineSampler line(Homogeneous(load_rgb(sigma), load_rgb(sigma + 3), g), load3(segment), load3(segment + 3),
-                           segment[6], load3(light), light[3]);
+    const EquiangularTable line(HomogeneousMedium(load_rgb(sigma), load_rgb(sigma + 3), g), load3(segment),
+                                load3(segment + 3), segment[6], load3(light), light[3]);
     for (uint64_t i = 0; i < n; ++i) {
-        const LineSample s = line.sample(u[i]);
+        const DistanceSample s = line.sample(u[i]);
         t[i] = s.t;
         pdf[i] = s.pdf;
     }
 }
 PROBE void probe_line_pdf(const float *sigma, float g, const float *segment, const float *light, const float *t,
                           uint64_t n, float *pdf) {
-    const LineSampler line(Homogeneous(load_rgb(sigma), load_rgb(sigma + 3), g), load3(segment), load3(segment + 3),
-                           segment[6], load3(light), light[3]);
+    const EquiangularTable line(HomogeneousMedium(load_rgb(sigma), load_rgb(sigma + 3), g), load3(segment),
+                                load3(segment + 3), segment[6], load3(light), light[3]);
     for (uint64_t i = 0; i < n; ++i)
         pdf[i] = line.pdf(t[i]);
 }

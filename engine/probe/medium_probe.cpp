@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "medium/equiangular.h"
-#include "medium/homogeneous.h"
+#include "medium/homogeneous_medium.h"
 #include "medium/phase.h"
 #include "probe.h"
 
 using namespace glimmer;
 using namespace glimmer::probe;
 
-static Homogeneous medium(const float *sigma) {
+static HomogeneousMedium medium(const float *sigma) {
     return {load_rgb(sigma), load_rgb(sigma + 3), 0};
 }
 
@@ -22,7 +22,7 @@ PROBE void probe_transmittance(const float *sigma, const float *t, uint64_t n, f
 PROBE void probe_free_flight(const float *sigma, const float *beta, float t_max, const float *u_channel,
                              const uint64_t *bits, int through_sampler, uint64_t n, float *t, int32_t *scattered,
                              float *weight, float *pdf) {
-    const Homogeneous m = medium(sigma);
+    const HomogeneousMedium m = medium(sigma);
     for (uint64_t i = 0; i < n; ++i) {
         Sampler sampler(bits[i], 0, 0, 0, 0);
         const FreeFlight f = through_sampler ? sample_free_flight(m, load_rgb(beta), t_max, sampler)
@@ -40,7 +40,7 @@ PROBE void probe_free_flight_pdf(const float *sigma, const float *beta, const fl
 
 PROBE void probe_collision(const float *sigma, const float *beta, float t_max, const float *u_channel,
                            const uint64_t *bits, int through_sampler, uint64_t n, float *t, float *weight, float *pdf) {
-    const Homogeneous m = medium(sigma);
+    const HomogeneousMedium m = medium(sigma);
     for (uint64_t i = 0; i < n; ++i) {
         Sampler sampler(bits[i], 0, 0, 0, 0);
         const Collision c = through_sampler ? sample_collision(m, load_rgb(beta), t_max, sampler)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The loops of engine/src/simd: both instruction sets against float64, and against each other bit by bit; and the line
+"""The loops of engine/src/integrator/simd: both instruction sets against float64, and against each other bit by bit; and the line
 table that one of them fills.
 """
 

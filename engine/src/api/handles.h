@@ -2,8 +2,8 @@
 // What the opaque handles of the C API hold, and the frame every call runs in.
 #pragma once
 
-#include "api/error.h"
-#include "api/float_mode.h"
+#include "base/error.h"
+#include "base/float_mode.h"
 #include "geometry/mesh.h"
 #include "render/session.h"
 #include "scene/description.h"

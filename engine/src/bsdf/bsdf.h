@@ -2,10 +2,10 @@
 // A surface's BSDF: a weighted sum of lobes. See bsdf/sample.h for the conventions.
 #pragma once
 
+#include "bsdf/baseline_metal.h"
 #include "bsdf/conductor.h"
 #include "bsdf/lambert.h"
 #include "bsdf/mirror.h"
-#include "bsdf/report_metal.h"
 #include "bsdf/sample.h"
 
 #include <optional>
@@ -14,12 +14,12 @@
 
 namespace glimmer {
 
-using Lobe = std::variant<Lambert, Mirror, Conductor, ReportMetal>;
+using Lobe = std::variant<Lambert, Mirror, Conductor, BaselineMetal>;
 
 struct WeightedLobe {
     Lobe lobe;
-    float weight; ///< factor of the lobe in the sum, >= 0
-    float select; ///< probability of sampling it; sums to 1 over a Bsdf (see set_selection)
+    float weight;      ///< factor of the lobe in the sum, >= 0
+    float probability; ///< probability of sampling it; sums to 1 over a Bsdf (see set_probabilities)
 };
 
 /// A view; the lobes live in the scene. May be empty (black).
@@ -31,8 +31,8 @@ inline bool is_specular(const Lobe &lobe) {
 inline Rgb albedo(const Lobe &lobe) {
     return std::visit([](const auto &l) { return albedo(l); }, lobe);
 }
-inline float peak(const Lobe &lobe) {
-    return std::visit([](const auto &l) { return peak(l); }, lobe);
+inline float max_value(const Lobe &lobe) {
+    return std::visit([](const auto &l) { return max_value(l); }, lobe);
 }
 inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi) {
     return std::visit([&](const auto &l) { return eval(l, wo, wi); }, lobe);
@@ -56,8 +56,8 @@ inline Rgb eval(Bsdf bsdf, const Vec3f &wo, const Vec3f &wi) {
 inline float pdf(Bsdf bsdf, const Vec3f &wo, const Vec3f &wi) {
     float sum = 0;
     for (const WeightedLobe &l : bsdf)
-        if (l.select > 0)
-            sum += pdf(l.lobe, wo, wi) * l.select;
+        if (l.probability > 0)
+            sum += pdf(l.lobe, wo, wi) * l.probability;
     return sum;
 }
 
@@ -68,9 +68,9 @@ inline std::optional<BsdfSample> sample(Bsdf bsdf, const Vec3f &wo, float u_lobe
     int smooth = 0;
     for (const WeightedLobe &l : bsdf) {
         smooth += !is_specular(l.lobe);
-        if (l.select > 0 && u_lobe >= 0) {
+        if (l.probability > 0 && u_lobe >= 0) {
             chosen = &l; // the last possible one stands if rounding lets u_lobe outlast the sum
-            u_lobe -= l.select;
+            u_lobe -= l.probability;
         }
     }
     if (!chosen)
@@ -79,8 +79,8 @@ inline std::optional<BsdfSample> sample(Bsdf bsdf, const Vec3f &wo, float u_lobe
     if (!s)
         return std::nullopt;
     if (s->specular || smooth == 1) {
-        s->weight *= chosen->weight / chosen->select;
-        s->pdf *= chosen->select;
+        s->weight *= chosen->weight / chosen->probability;
+        s->pdf *= chosen->probability;
         return s;
     }
     const float density = pdf(bsdf, wo, s->wi);
@@ -105,11 +105,11 @@ inline bool has_specular(Bsdf bsdf) {
 
 /// No f cos_o of any channel is larger: what bounds the light that a surface can throw at a point. Infinite with
 /// mirrors.
-inline float peak(Bsdf bsdf) {
+inline float max_value(Bsdf bsdf) {
     float sum = 0;
     for (const WeightedLobe &l : bsdf)
         if (l.weight > 0)
-            sum += l.weight * peak(l.lobe);
+            sum += l.weight * max_value(l.lobe);
     return sum;
 }
 
@@ -123,7 +123,7 @@ inline Rgb albedo(Bsdf bsdf) {
 
 /// Sets the probabilities of selection: nine tenths by weight times largest albedo, one tenth shared equally by the
 /// lobes that have weight (a metal that is black at normal incidence is not at grazing).
-inline void set_selection(std::span<WeightedLobe> lobes) {
+inline void set_probabilities(std::span<WeightedLobe> lobes) {
     float total = 0;
     int count = 0;
     for (const WeightedLobe &l : lobes) {
@@ -132,11 +132,11 @@ inline void set_selection(std::span<WeightedLobe> lobes) {
     }
     for (WeightedLobe &l : lobes) {
         if (!(l.weight > 0))
-            l.select = 0;
+            l.probability = 0;
         else if (total > 0)
-            l.select = 0.9f * l.weight * max_component(albedo(l.lobe)) / total + 0.1f / static_cast<float>(count);
+            l.probability = 0.9f * l.weight * max_component(albedo(l.lobe)) / total + 0.1f / static_cast<float>(count);
         else
-            l.select = 1 / static_cast<float>(count);
+            l.probability = 1 / static_cast<float>(count);
     }
 }
 

@@ -31,7 +31,7 @@ inline Rgb albedo(const Conductor &lobe) {
 
 /// No f cos_o of any channel is larger: D <= 1 / (pi alpha^2), V cos_o <= 1 / (2 alpha) for each kind of masking, F
 /// <= 1.
-inline float peak(const Conductor &lobe) {
+inline float max_value(const Conductor &lobe) {
     return is_specular(lobe) ? kInfinity : 1 / (2 * kPi * lobe.alpha * lobe.alpha * lobe.alpha);
 }
 

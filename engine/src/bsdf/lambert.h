@@ -32,7 +32,7 @@ inline Rgb albedo(const Lambert &lobe) {
     return lobe.albedo;
 }
 /// No f cos_o of any channel is larger.
-inline float peak(const Lambert &lobe) {
+inline float max_value(const Lambert &lobe) {
     return max_component(lobe.albedo) / kPi;
 }
 

@@ -24,7 +24,7 @@ inline std::optional<BsdfSample> sample(const Mirror &lobe, const Vec3f &wo, Vec
 inline bool is_specular(const Mirror &) {
     return true;
 }
-inline float peak(const Mirror &) {
+inline float max_value(const Mirror &) {
     return kInfinity;
 }
 inline Rgb albedo(const Mirror &lobe) {

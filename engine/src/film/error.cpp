@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film/error.h"
 
-#include "film/student.h"
+#include "base/student_t.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film/film.h"
 
-#include "api/error.h"
-#include "film/bytes.h"
+#include "base/bytes.h"
+#include "base/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -303,7 +303,7 @@ void Film::Tile::add(uint32_t x, uint32_t y, uint64_t pass, const FilmSample &va
     add_rgb(sums_[GLIMMER_PASS_EMISSION], pixel, value.emission, weight);
     add_rgb(sums_[GLIMMER_PASS_DIRECT], pixel, value.direct, weight);
     add_rgb(sums_[GLIMMER_PASS_INDIRECT], pixel, value.indirect, weight);
-    add_rgb(sums_[GLIMMER_PASS_FOG], pixel, value.fog, weight);
+    add_rgb(sums_[GLIMMER_PASS_FOG], pixel, value.medium, weight);
     if (value.hit && !hits_.empty()) {
         sums_[GLIMMER_PASS_DEPTH][pixel] += value.depth * weight;
         hits_[pixel] += weight;

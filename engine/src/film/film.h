@@ -5,7 +5,7 @@
 
 #include "film/passes.h"
 #include "film/sample.h"
-#include "film/sample_plan.h"
+#include "film/sample_allocation.h"
 #include "math/rectangle.h"
 
 #include <array>

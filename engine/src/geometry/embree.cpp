@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/embree.h"
 
-#include "api/error.h"
+#include "base/error.h"
 
 #include <dlfcn.h>
 #include <mutex>

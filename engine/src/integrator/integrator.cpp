@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/integrator.h"
 
-#include "integrator/path.h"
+#include "integrator/path/path_integrator.h"
 
 namespace glimmer {
 
@@ -9,23 +9,23 @@ namespace {
 
 /// What is switched off, from the third of kIntegrators on.
 constexpr std::array kWithout{
-    &PathOptions::split,
-    &PathOptions::all_lights,
-    &PathOptions::light_rays,
-    &PathOptions::branch,
-    &PathOptions::guided_choice,
-    &PathOptions::line_lights,
-    &PathOptions::deep_line_lights,
-    &PathOptions::late_roulette,
-    &PathOptions::pixel_points,
-    &PathOptions::light_vertices,
+    &EstimatorFlags::split,
+    &EstimatorFlags::all_lights,
+    &EstimatorFlags::light_rays,
+    &EstimatorFlags::branch,
+    &EstimatorFlags::guided_choice,
+    &EstimatorFlags::segment_lights,
+    &EstimatorFlags::deep_segment_lights,
+    &EstimatorFlags::late_roulette,
+    &EstimatorFlags::pixel_points,
+    &EstimatorFlags::light_vertices,
 };
 static_assert(kIntegrators.size() == 2 + kWithout.size());
 
-PathOptions options_of(uint32_t index) {
+EstimatorFlags options_of(uint32_t index) {
     if (index == 1)
-        return kReportOptions;
-    PathOptions options;
+        return kBaselineFlags;
+    EstimatorFlags options;
     if (index >= 2)
         options.*kWithout[index - 2] = false;
     return options;

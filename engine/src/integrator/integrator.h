@@ -25,19 +25,19 @@ struct DepthLimits {
 };
 
 /// What a worker's rays are counted in, and where a path that finds no end learns that nobody waits for it any more.
-struct RayCounter {
+struct TraceContext {
     uint64_t rays = 0;
     const std::atomic<bool> *stop = nullptr; ///< null: never
     bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
 };
 
-inline constexpr uint64_t kVerticesALook = 4096; ///< between looks at it: well below a millisecond
+inline constexpr uint64_t kCancelCheckInterval = 4096; ///< between looks at it: well below a millisecond
 /// Of one camera sample, or of one light path with its branches; reached only where light is shut in for good.
-inline constexpr uint64_t kVertexGuard = 1ull << 32;
+inline constexpr uint64_t kMaxVertices = 1ull << 32;
 
 /// What all pixels of a pass share, and what the pixels of one block of it share.
-struct PassData {
-    virtual ~PassData() = default;
+struct WaveData {
+    virtual ~WaveData() = default;
     /// Of its large arrays.
     virtual size_t bytes() const = 0;
 };
@@ -54,17 +54,17 @@ class Integrator {
     /// Whether passes and blocks share anything.
     virtual bool shares() const { return false; }
     /// For sample number `sample` of every pixel. Depends on it and the seed alone; once `stop` is set, broken off.
-    virtual std::unique_ptr<const PassData> prepare_pass(uint64_t, uint64_t, const std::atomic<bool> &,
-                                                         RayCounter &) const {
+    virtual std::unique_ptr<const WaveData> prepare_wave(uint64_t, uint64_t, const std::atomic<bool> &,
+                                                         TraceContext &) const {
         return nullptr;
     }
     /// For the pixels of a block in that pass.
-    virtual std::unique_ptr<const BlockData> prepare_block(const PassData &, const Rectangle &, RayCounter &) const {
+    virtual std::unique_ptr<const BlockData> prepare_block(const WaveData &, const Rectangle &, TraceContext &) const {
         return nullptr;
     }
     /// Radiance along the camera ray of one sample. block: of its pass and pixel; null where nothing is shared.
     virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
-                              RayCounter &rays) const = 0;
+                              TraceContext &rays) const = 0;
     /// Names the code that runs.
     virtual std::string kernel() const = 0;
     /// What the scene has no use for, a line each.

@@ -51,7 +51,7 @@ std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f 
         return Emission{{l->position, direction},
                         l->intensity * (l->cone->falloff(direction) * 2 * kPi * one_minus_cos)};
     }
-    if (const auto *l = std::get_if<BallLamp>(&light)) {
+    if (const auto *l = std::get_if<SphereLamp>(&light)) {
         // Seen from without it is its near side, from within its far side: half the rays go in and end where they come
         // out.
         const bool in = u_choice < 0.5f;

@@ -65,7 +65,7 @@ std::optional<LightSample> sample(const PointLamp &light, const Vec3f &x, Vec2f)
     return LightSample{direction, distance, light.intensity * (factor / distance / distance), 1, true};
 }
 
-std::optional<LightSample> sample(const BallLamp &light, const Vec3f &x, Vec2f u) {
+std::optional<LightSample> sample(const SphereLamp &light, const Vec3f &x, Vec2f u) {
     const auto s = sample_sphere(light.sphere.center - Vec3d(x), light.sphere.radius, u);
     if (!s)
         return std::nullopt;
@@ -137,7 +137,7 @@ float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint
     const Vec3d at(x);
     if (const auto *l = std::get_if<SphereLight>(&light))
         return pdf_sphere(l->sphere.center - at, l->sphere.radius);
-    if (const auto *l = std::get_if<BallLamp>(&light))
+    if (const auto *l = std::get_if<SphereLamp>(&light))
         return pdf_sphere(l->sphere.center - at, l->sphere.radius);
     if (const auto *l = std::get_if<MeshLight>(&light)) {
         const MeshLight::Triangle &t = l->triangles[triangle];
@@ -162,7 +162,7 @@ float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint
 }
 
 std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray) {
-    if (const auto *l = std::get_if<BallLamp>(&light)) {
+    if (const auto *l = std::get_if<SphereLamp>(&light)) {
         const auto roots = intersect_sphere(l->sphere, Vec3d(ray.origin), Vec3d(ray.direction));
         if (!roots)
             return std::nullopt;
@@ -210,7 +210,7 @@ LightBound bound_light(const Light &light) {
         b = {l->center, l->radius, false, mean_component(l->intensity)};
     } else if (const auto *l = std::get_if<PointLamp>(&light)) {
         b = {l->position, 0, false, mean_component(l->intensity)};
-    } else if (const auto *l = std::get_if<BallLamp>(&light)) {
+    } else if (const auto *l = std::get_if<SphereLamp>(&light)) {
         const auto r = float(l->sphere.radius);
         b = {Vec3f(l->sphere.center), r, false,
              bounded_strength(l->radiance, kPiDouble * l->sphere.radius * l->sphere.radius)};

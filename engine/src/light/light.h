@@ -80,7 +80,7 @@ struct PointLamp {
     std::optional<SpotCone> cone;
 };
 
-struct BallLamp {
+struct SphereLamp {
     Sphere sphere;
     Rgb radiance;
     std::optional<SpotCone> cone;
@@ -109,7 +109,7 @@ struct EnvironmentLight {
     Rgb radiance(const Vec3f &direction) const;
 };
 
-using Light = std::variant<SphereLight, MeshLight, PointLamp, BallLamp, AreaLamp, SunLamp, EnvironmentLight>;
+using Light = std::variant<SphereLight, MeshLight, PointLamp, SphereLamp, AreaLamp, SunLamp, EnvironmentLight>;
 
 /// Towards the light from x. Nothing where it cannot shine.
 std::optional<LightSample> sample_light(const Light &light, const Vec3f &x, Vec2f u);

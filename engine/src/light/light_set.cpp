@@ -56,7 +56,7 @@ LightSet::LightSet(std::vector<Light> lights) : lights_(std::move(lights)) {
         } else if (std::holds_alternative<SunLamp>(light) || std::holds_alternative<EnvironmentLight>(light)) {
             infinite_.push_back(i);
         } else if (!std::holds_alternative<PointLamp>(light)) {
-            lamps_.push_back(i);
+            intersectable_lamps_.push_back(i);
         }
     }
     if (size() > kWeighedLights) {
@@ -69,7 +69,7 @@ LightSet::LightSet(std::vector<Light> lights) : lights_(std::move(lights)) {
     }
 }
 
-float LightSet::weigh_point(uint32_t light, const Vec3f &x, float sigma) const {
+float LightSet::importance_at_point(uint32_t light, const Vec3f &x, float sigma) const {
     const LightBound &b = bounds_[light];
     if (b.infinite)
         return sigma > 0 ? 0 : b.strength;
@@ -79,8 +79,8 @@ float LightSet::weigh_point(uint32_t light, const Vec3f &x, float sigma) const {
            std::exp(-sigma * std::max(d - b.radius, 0.0f));
 }
 
-float LightSet::weigh_segment(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max,
-                              float sigma) const {
+float LightSet::importance_along_segment(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max,
+                                         float sigma) const {
     const LightBound &b = bounds_[light];
     if (b.infinite)
         return 0;
@@ -101,13 +101,13 @@ LightChoice LightSet::choose(const Vec3f &x, float sigma, float u) const {
         return {s.index, s.pmf};
     }
     Weights weights;
-    return choose_by(size(), u, weights, [&](uint32_t i) { return weigh_point(i, x, sigma); });
+    return choose_by(size(), u, weights, [&](uint32_t i) { return importance_at_point(i, x, sigma); });
 }
 
 float LightSet::probability(uint32_t light, const Vec3f &x, float sigma) const {
     if (!by_strength_.empty())
         return by_strength_.pmf(light);
-    return probability_by(size(), light, [&](uint32_t i) { return weigh_point(i, x, sigma); });
+    return probability_by(size(), light, [&](uint32_t i) { return importance_at_point(i, x, sigma); });
 }
 
 LightChoice LightSet::choose(const Vec3f &origin, const Vec3f &direction, float t_max, float sigma, float u) const {
@@ -116,14 +116,16 @@ LightChoice LightSet::choose(const Vec3f &origin, const Vec3f &direction, float 
         return {s.index, s.pmf};
     }
     Weights weights;
-    return choose_by(size(), u, weights, [&](uint32_t i) { return weigh_segment(i, origin, direction, t_max, sigma); });
+    return choose_by(size(), u, weights,
+                     [&](uint32_t i) { return importance_along_segment(i, origin, direction, t_max, sigma); });
 }
 
 float LightSet::probability(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max,
                             float sigma) const {
     if (!by_strength_.empty())
         return by_strength_.pmf(light);
-    return probability_by(size(), light, [&](uint32_t i) { return weigh_segment(i, origin, direction, t_max, sigma); });
+    return probability_by(size(), light,
+                          [&](uint32_t i) { return importance_along_segment(i, origin, direction, t_max, sigma); });
 }
 
 } // namespace glimmer

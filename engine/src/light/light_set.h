@@ -3,7 +3,7 @@
 #pragma once
 
 #include "light/light.h"
-#include "medium/homogeneous.h"
+#include "medium/homogeneous_medium.h"
 
 #include <vector>
 
@@ -27,7 +27,7 @@ class LightSet {
     const LightBound &bound(uint32_t i) const { return bounds_[i]; }
 
     /// Lamps and lights at infinity, by index: what an integrator must ask for besides surfaces.
-    const std::vector<uint32_t> &lamps() const { return lamps_; }
+    const std::vector<uint32_t> &intersectable_lamps() const { return intersectable_lamps_; }
     const std::vector<uint32_t> &infinite() const { return infinite_; }
     /// Which light a sphere or instance is; kNone if none.
     uint32_t of_sphere(uint32_t sphere) const { return sphere < of_sphere_.size() ? of_sphere_[sphere] : kNone; }
@@ -37,20 +37,21 @@ class LightSet {
     /// light has probability 0, however small its bound. sigma: the smallest extinction of the channels.
     LightChoice choose(const Vec3f &x, float sigma, float u) const;
     float probability(uint32_t light, const Vec3f &x, float sigma) const;
-    /// One light for a segment of fog, by the angle that the segment spans as seen from the light.
+    /// One light for a segment of medium, by the angle that the segment spans as seen from the light.
     LightChoice choose(const Vec3f &origin, const Vec3f &direction, float t_max, float sigma, float u) const;
     float probability(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max, float sigma) const;
 
     /// About the irradiance that a light could bring to x.
-    float weigh_point(uint32_t light, const Vec3f &x, float sigma) const;
+    float importance_at_point(uint32_t light, const Vec3f &x, float sigma) const;
 
   private:
     using Weights = std::array<float, kWeighedLights>;
-    float weigh_segment(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max, float sigma) const;
+    float importance_along_segment(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max,
+                                   float sigma) const;
 
     std::vector<Light> lights_;
     std::vector<LightBound> bounds_;
-    std::vector<uint32_t> lamps_, infinite_, of_sphere_;
+    std::vector<uint32_t> intersectable_lamps_, infinite_, of_sphere_;
     uint32_t mesh_light_ = kNone;
     AliasTable by_strength_;
 };

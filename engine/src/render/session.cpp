@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "render/session.h"
 
-#include "api/error.h"
-#include "scene/camera_sample.h"
+#include "base/error.h"
+#include "camera/camera_sample.h"
 
 #include <algorithm>
 #include <chrono>
@@ -185,12 +185,12 @@ void Session::take_pass(size_t index, std::unique_lock<std::mutex> &lock) {
     ++busy_;
     const uint64_t sample = batch_.first + index;
     lock.unlock();
-    RayCounter rays{0, &stop_};
-    std::unique_ptr<const PassData> pass;
+    TraceContext rays{0, &stop_};
+    std::unique_ptr<const WaveData> pass;
     std::exception_ptr failure;
     const uint64_t cpu_start = thread_cpu_nanoseconds();
     try {
-        pass = integrator_->prepare_pass(settings_.seed, sample, stop_, rays);
+        pass = integrator_->prepare_wave(settings_.seed, sample, stop_, rays);
     } catch (...) {
         failure = std::current_exception();
     }
@@ -220,7 +220,7 @@ void Session::take_tile(size_t tile, std::unique_lock<std::mutex> &lock) {
         settings_.seconds > 0 && first > 0 ? running_since_ + settings_.seconds - earlier_seconds_ : HUGE_VAL;
     ++busy_;
     lock.unlock();
-    RayCounter rays{0, &stop_};
+    TraceContext rays{0, &stop_};
     bool whole = first >= end; // a resumed batch may have been ahead here
     std::exception_ptr failure;
     const double start = now();
@@ -311,7 +311,7 @@ void Session::end_batch(std::unique_lock<std::mutex> &lock) {
     between_batches_ = false;
 }
 
-bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double deadline, RayCounter &rays) {
+bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double deadline, TraceContext &rays) {
     const Rectangle &area = film_.tiles()[index];
     const FilmSettings &settings = scene_->film;
     Film::Tile tile(film_, index);

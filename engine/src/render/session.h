@@ -23,7 +23,7 @@ struct RenderSettings {
     uint64_t seed = 0;
     uint32_t threads = 0, tile_size = 64, passes = 1;
     DepthLimits limits;
-    bool adaptive = false;    ///< film/sample_plan.h
+    bool adaptive = false;    ///< film/sample_allocation.h
     bool full_kernel = false; ///< make_integrator
 };
 
@@ -54,14 +54,14 @@ class Session {
   private:
     struct Batch {
         uint64_t first = 0, count = 0;
-        std::vector<std::unique_ptr<const PassData>> passes; ///< what they share; empty where they share nothing
+        std::vector<std::unique_ptr<const WaveData>> passes; ///< what they share; empty where they share nothing
         size_t next_pass = 0, done_passes = 0, shared_bytes = 0;
         size_t next_tile = 0, done_tiles = 0;
     };
 
     void work();
     /// Adds samples [first, end) to a tile; false when it was broken off (nothing of it is kept then).
-    bool render_tile(size_t tile, uint64_t first, uint64_t end, double deadline, RayCounter &rays);
+    bool render_tile(size_t tile, uint64_t first, uint64_t end, double deadline, TraceContext &rays);
     void take_pass(size_t index, std::unique_lock<std::mutex> &lock);
     void fail(const std::exception_ptr &failure);
     void take_tile(size_t tile, std::unique_lock<std::mutex> &lock);

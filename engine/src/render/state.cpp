@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The state of a render as bytes, and back. What is not the very bytes that were saved is refused as a whole.
-#include "api/error.h"
-#include "film/bytes.h"
+#include "base/bytes.h"
+#include "base/error.h"
 #include "render/session.h"
 
 namespace glimmer {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The camera, the film and its filter.
-#include "api/error.h"
+#include "base/error.h"
 #include "scene/builder.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Instances and spheres, relative to the camera, and the BVH over them.
-#include "api/error.h"
+#include "base/error.h"
 #include "scene/builder.h"
 
 #include <cmath>
@@ -16,12 +16,10 @@ constexpr float kRoundingUnits = 0x1p-21f; // eight roundings of 2^-24 in a hit'
 /// The object's mesh, or a copy of it without the triangles whose material is absent; null when none is left.
 std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription &object) const {
     const Mesh &mesh = *object.mesh;
-    const auto absent = [&](size_t slot) {
-        return scene_.materials[object.materials[slot]].kind == MaterialKind::absent;
-    };
+    const auto null = [&](size_t slot) { return scene_.materials[object.materials[slot]].kind == MaterialKind::null; };
     size_t gone = 0;
     for (size_t s = 0; s < mesh.slot_count; ++s)
-        gone += absent(s);
+        gone += null(s);
     if (gone == 0)
         return object.mesh;
     if (gone == mesh.slot_count)
@@ -35,7 +33,7 @@ std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription
     rest->radius = mesh.radius;
     rest->slot_count = mesh.slot_count;
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        if (!absent(mesh.slot(t))) {
+        if (!null(mesh.slot(t))) {
             rest->triangles.push_back(mesh.triangles[t]);
             rest->slots.push_back(mesh.slot(t));
         }
@@ -45,9 +43,10 @@ std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription
 void SceneBuilder::use(uint32_t index) {
     const Material &material = scene_.materials[index];
     used_[index] = true;
-    scene_.has_glass |= material.kind == MaterialKind::glass;
+    scene_.has_dielectrics |= material.kind == MaterialKind::glass;
     scene_.has_surfaces |= material.kind == MaterialKind::glass || material.lobe_count > 0;
-    scene_.peak = std::max(scene_.peak, material.kind == MaterialKind::glass ? kInfinity : peak(scene_.bsdf(material)));
+    scene_.max_value =
+        std::max(scene_.max_value, material.kind == MaterialKind::glass ? kInfinity : max_value(scene_.bsdf(material)));
 }
 
 void SceneBuilder::build_geometry() {
@@ -99,7 +98,7 @@ void SceneBuilder::build_geometry() {
     std::vector<Sphere> spheres;
     for (const SpheresDescription &group : description_.spheres) {
         const Material &material = scene_.materials[group.material];
-        if (material.kind == MaterialKind::absent) {
+        if (material.kind == MaterialKind::null) {
             ++absent_objects_;
             continue;
         }

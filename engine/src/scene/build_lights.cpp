@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The lights: emissive spheres, all emissive triangles as one, lamps, the environment.
-#include "api/error.h"
+#include "base/error.h"
 #include "scene/builder.h"
 
 #include <cmath>
@@ -117,7 +117,7 @@ void SceneBuilder::add_lamps(std::vector<Light> &lights) {
             // So small that its radiance is beyond float32, it is a point.
             if (const double per_intensity = 1 / (kPiDouble * l.radius * l.radius);
                 l.radius > 0 && per_intensity * double(max_component(color)) < 1e38)
-                lights.push_back(BallLamp{{position, l.radius}, color * float(per_intensity), cone_of(l)});
+                lights.push_back(SphereLamp{{position, l.radius}, color * float(per_intensity), cone_of(l)});
             else
                 lights.push_back(PointLamp{Vec3f(position), color, cone_of(l)});
             break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Materials: mixes are flattened into weighted lobes.
-#include "api/error.h"
+#include "base/error.h"
 #include "scene/builder.h"
 
 namespace glimmer {
@@ -25,7 +25,7 @@ Lobe to_lobe(const MaterialDescription &m) {
         return Conductor{m.alpha,      m.use_f0 != 0,         to_rgb(m.eta), to_rgb(m.k),
                          to_rgb(m.f0), to_masking(m.masking), to_rgb(m.f90)};
     case GLIMMER_REPORT_METAL:
-        return ReportMetal{to_rgb(m.color), to_rgb(m.f0), m.alpha};
+        return BaselineMetal{to_rgb(m.color), to_rgb(m.f0), m.alpha};
     default:
         return Lambert{to_rgb(m.color)};
     }
@@ -61,12 +61,12 @@ void SceneBuilder::build_materials() {
             out.emission = to_rgb(m.color);
             break;
         case GLIMMER_NULL:
-            out.kind = MaterialKind::absent;
+            out.kind = MaterialKind::null;
             break;
         default: {
             std::vector<WeightedLobe> lobes;
             flatten(i, 1, lobes, out.emission);
-            set_selection(lobes);
+            set_probabilities(lobes);
             out.lobe_count = uint32_t(lobes.size());
             scene_.lobes.insert(scene_.lobes.end(), lobes.begin(), lobes.end());
         }

@@ -13,7 +13,7 @@ enum class MaterialKind : uint8_t {
     reflective, ///< opaque: a sum of lobes, maybe emissive
     glass,      ///< a smooth dielectric
     light,      ///< opaque, black, radiant
-    absent      ///< not there
+    null        ///< not there
 };
 
 struct Material {

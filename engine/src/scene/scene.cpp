@@ -17,7 +17,7 @@ void SceneBuilder::build_medium() {
         return;
     const MediumDescription &m = *description_.medium;
     const auto rgb = [](const Vec3d &v) { return Rgb(float(v.x), float(v.y), float(v.z)); };
-    const Homogeneous medium(rgb(m.sigma_a), rgb(m.sigma_s), float(m.g));
+    const HomogeneousMedium medium(rgb(m.sigma_a), rgb(m.sigma_s), float(m.g));
     if (!is_black(medium.sigma_t))
         scene_.medium = medium;
 }
@@ -53,7 +53,7 @@ void SceneBuilder::list_left_out() {
     };
     if (scene_.medium && !scene_.medium->scatters())
         out.push_back("fog that does not scatter: no distance sampling");
-    if (scene_.medium && scene_.medium->grey)
+    if (scene_.medium && scene_.medium->monochromatic)
         out.push_back("grey fog: one channel of transmittance");
     if (scene_.medium && scene_.medium->g == 0)
         out.push_back("isotropic fog: no phase function");

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "bsdf/bsdf.h"
+#include "camera/camera.h"
 #include "geometry/accel.h"
 #include "light/light_set.h"
-#include "medium/homogeneous.h"
-#include "scene/camera.h"
+#include "medium/homogeneous_medium.h"
 #include "scene/description.h"
 #include "scene/material.h"
 
@@ -57,11 +57,11 @@ class Scene {
     std::vector<WeightedLobe> lobes;
     std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot
     std::vector<uint32_t> sphere_materials, sphere_indices;
-    std::optional<Homogeneous> medium;
+    std::optional<HomogeneousMedium> medium;
     std::unique_ptr<Accel> accel;
     LightSet lights;
-    bool has_glass = false, has_surfaces = false; ///< anything that scatters light
-    float peak = 0;          ///< largest of the materials in use (see peak(Bsdf)); infinite with glass
+    bool has_dielectrics = false, has_surfaces = false; ///< anything that scatters light
+    float max_value = 0;     ///< largest of the materials in use (see peak(Bsdf)); infinite with glass
     Vec3f bounds_center;     ///< of all surfaces and finite lights
     float bounds_radius = 0; ///< 0: there are none
     std::vector<std::string> warnings, left_out;

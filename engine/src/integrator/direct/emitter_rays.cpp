@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrator/direct/emitter_rays.h"
+
+#include "camera/camera_sample.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+constexpr uint32_t kMostDiscs = 64; // beyond, the look at each would cost more than the rays
+
+} // namespace
+
+EmitterRays::EmitterRays(const Scene &scene, uint32_t rays) : scene_(scene), rays_(rays) {
+    if (rays == 0)
+        return;
+    const Camera &camera = scene.camera;
+    const float footprint = std::sqrt(2.0f) * scene.film.filter_width * camera.tan_half_x / float(scene.film.width);
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+        if (!std::holds_alternative<SphereLight>(scene.lights[i]))
+            continue;
+        const LightBound &b = scene.lights.bound(i);
+        const float distance = length(b.center);
+        if (!(b.radius < distance))
+            continue;
+        const float blur =
+            camera.lens_radius > 0 ? camera.lens_radius * std::abs(1 / distance - 1 / camera.focus_distance) : 0;
+        discs_.push_back({b.center / distance, std::asin(b.radius / distance) + footprint + blur});
+    }
+    if (discs_.size() > kMostDiscs)
+        discs_.clear();
+}
+
+uint32_t EmitterRays::rays(uint32_t pixel_x, uint32_t pixel_y) const {
+    if (discs_.empty())
+        return 0;
+    const FilmSettings &film = scene_.film;
+    const Vec2f middle{(float(pixel_x) + 0.5f) / float(film.width), (float(pixel_y) + 0.5f) / float(film.height)};
+    const Vec3f direction = scene_.camera.generate(middle, {}).ray.direction;
+    for (const Disc &disc : discs_)
+        if (std::atan2(length(cross(direction, disc.direction)), dot(direction, disc.direction)) <= disc.angle)
+            return rays_;
+    return 0;
+}
+
+Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &counter) const {
+    const auto side = uint32_t(std::lround(std::sqrt(float(rays))));
+    const auto strata = float(side);
+    Rgb sum;
+    for (uint32_t i = 0; i < side * side; ++i) {
+        const Vec2f u = sampler.next_2d();
+        const Vec2f u_pixel{(float(i % side) + u.x) / strata, (float(i / side) + u.y) / strata};
+        const Ray ray = sample_camera_ray(scene_, pixel_x, pixel_y, u_pixel, sampler.next_2d()).ray;
+        ++counter.rays;
+        const auto hit = scene_.accel->intersect(ray);
+        if (!hit || hit->instance != kNone)
+            continue;
+        const Rgb &emission = scene_.materials[scene_.interaction(ray, *hit).material].emission;
+        sum += scene_.medium ? emission * scene_.medium->transmittance(hit->t) : emission;
+    }
+    return sum;
+}
+
+} // namespace glimmer

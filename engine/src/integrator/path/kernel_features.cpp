@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrator/path/kernel_features.h"
+
+namespace glimmer {
+
+KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &options, bool shares) {
+    KernelFeatures f;
+    f.medium = scene.medium.has_value();
+    f.medium_walks = f.medium && scene.medium->scatters() && !shares;
+    f.surfaces = scene.has_surfaces;
+    f.glass = scene.has_dielectrics;
+    f.bvh = !scene.accel->without_bvh();
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+        f.other_lights |= !std::holds_alternative<SphereLight>(scene.lights[i]);
+    f.flags = !(options == kAllEstimators);
+    return f;
+}
+
+std::vector<std::string> left_out(const KernelFeatures &needed) {
+    std::vector<std::string> lines;
+    for (const FeatureText &f : kFeatureTexts)
+        if (!(needed.*f.feature) && *f.left_out)
+            lines.emplace_back(f.left_out);
+    return lines;
+}
+
+} // namespace glimmer

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrator/path/kernels.h"
+
+#include "integrator/path/kernel.inl"
+
+#include <algorithm>
+
+namespace glimmer {
+
+namespace {
+
+/// The least first; the last has all features.
+constexpr PathKernel kKernels[] = {
+    compiled<KernelFeatures{.medium = true}>("spheres that shine, in fog or none"),
+    compiled<KernelFeatures{.surfaces = true, .bvh = true}>("surfaces lit by spheres, without fog and glass"),
+    compiled<KernelFeatures{.medium = true, .surfaces = true, .bvh = true}>(
+        "surfaces lit by spheres, in fog, without glass"),
+    compiled<kAllFeatures>("everything"),
+};
+
+} // namespace
+
+const PathKernel &path_kernel(const KernelFeatures &needed) {
+    return *std::ranges::find_if(kKernels, [&](const PathKernel &k) { return covers(k.features, needed); });
+}
+
+} // namespace glimmer

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scattering in the medium along a segment.
+#pragma once
+
+#include "integrator/mis.h"
+#include "integrator/path/path_sample.h"
+#include "medium/phase.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+template <KernelFeatures F>
+void PathSample<F>::sample_lights_along(const State &state, float end, const HomogeneousMedium &medium, bool split) {
+    if (scene_.lights.size() == 0)
+        return;
+    const bool camera = state.depth == 0, all = state.direct_view();
+    const HenyeyGreenstein phase{medium.g};
+    const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
+    float looked = 1;
+    if (!all && pooled()) { // short segments between plates scatter next to nothing: seldom worth a look
+        looked =
+            survival((Rgb(1) - medium.transmittance(end)) * state.beta, state.rr_scale, origin, kRouletteScaleInMedium);
+        if (!(looked > 0) || (looked < 1 && sampler_.next_1d() >= looked))
+            return;
+    }
+    for (uint32_t i = 0; i < choices(all); ++i) {
+        const LightChoice choice = choose(i, all, origin, direction, end);
+        if (scene_.lights.bound(choice.index).infinite)
+            continue; // an endless medium lets nothing through from there
+        const EquiangularTable line = equiangular_table(choice.index, origin, direction, end);
+        const DistanceSample at = line.sample(camera ? sampler_.stratified_1d(kSetLine + 2 * i) : sampler_.next_1d());
+        if (!(at.pdf > 0) || !(at.t < kInfinity))
+            continue;
+        const Vec3f x = origin + direction * at.t;
+        const auto light =
+            sample_light(choice.index, x, camera ? sampler_.stratified_2d(kSetLine + 2 * i + 1) : sampler_.next_2d());
+        if (!light)
+            continue;
+        const float p_phase = phase.eval(direction, light->direction);
+        const Rgb unshadowed = medium.sigma_s * medium.transmittance(at.t + light->distance) * light->radiance *
+                               (p_phase / light->pdf / at.pdf / choice.probability);
+        if (is_black(unshadowed) || occluded(x, *light))
+            continue;
+        float weight = 1;
+        if (!light->delta && !pooled()) { // a pool's gathers are not lit by chance
+            float p_distance =
+                split ? collision_pdf(medium, state.beta, end, at.t) : free_flight_pdf(medium, state.beta, at.t);
+            if (p_distance > 0) { // of the paths that scatter there roulette leaves this part
+                const Rgb at_collision = state.beta * medium.sigma_s * medium.transmittance(at.t) * (1 / p_distance);
+                p_distance *= survival(at_collision, state.rr_scale, x, kRouletteScaleInMedium);
+            }
+            weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
+        }
+        const Rgb value = state.beta * unshadowed * (weight / looked);
+        (state.path_class == PathClass::surface ? result_.indirect : result_.medium) += value;
+    }
+}
+
+template <KernelFeatures F>
+void PathSample<F>::split_into_medium(const State &state, float end, const HomogeneousMedium &medium) {
+    const bool camera = state.depth == 0;
+    const Collision c =
+        camera ? sample_collision(medium, state.beta, end, sampler_.next_1d(), sampler_.stratified_bits(kSetCollision))
+               : sample_collision(medium, state.beta, end, sampler_);
+    if (c.pdf > 0)
+        scatter_in_medium(state, end, medium, c.t, c.weight, c.pdf);
+}
+
+template <KernelFeatures F>
+bool PathSample<F>::fly_into_medium(State &state, float end, const HomogeneousMedium &medium) {
+    const FreeFlight flight = sample_free_flight(medium, state.beta, end, sampler_);
+    if (!flight.scattered) {
+        state.beta *= flight.weight;
+        return false;
+    }
+    if (flight.pdf > 0)
+        scatter_in_medium(state, end, medium, flight.t, flight.weight, flight.pdf);
+    return true;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::scatter_in_medium(const State &state, float end, const HomogeneousMedium &medium, float t,
+                                      const Rgb &weight, float pdf) {
+    State next = state;
+    next.beta *= weight;
+    const Vec3f x = state.ray.origin + state.ray.direction * t;
+    const bool along = lights_along(state);
+    if (!along)
+        sample_light_in_medium(next, x, medium, true);
+    else // roulette is part of how light is met by chance: else thin medium keeps a share of it for one sample in
+         // millions
+        pdf *= survival(next.beta, next.rr_scale, x, kRouletteScaleInMedium);
+    if (!survives(next, x, kRouletteScaleInMedium))
+        return;
+    const bool camera = state.depth == 0;
+    const PhaseSample s = HenyeyGreenstein{medium.g}.sample(
+        state.ray.direction, camera ? sampler_.stratified_2d(kSetPhase) : sampler_.next_2d());
+    next.ray = {x, s.direction};
+    next.origin = {ScatterKind::medium,
+                   state.direct_view(),
+                   along,
+                   s.pdf,
+                   x,
+                   {state.ray.origin, state.ray.direction, end, t, pdf}};
+    ++next.depth;
+    ++next.scatter;
+    next.specular_depth = 0;
+    if (state.direct_view())
+        next.path_class = PathClass::medium;
+    ++next.depth_since_first;
+    push(next);
+}
+
+template <KernelFeatures F>
+void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, const HomogeneousMedium &medium,
+                                           bool by_chance) {
+    if (scene_.lights.size() == 0)
+        return;
+    const LightChoice choice = choose(0, false, x);
+    const auto light = sample_light(choice.index, x, sampler_.next_2d());
+    if (!light)
+        return;
+    const float p_phase = HenyeyGreenstein{medium.g}.eval(state.ray.direction, light->direction);
+    const Rgb unshadowed =
+        medium.transmittance(light->distance) * light->radiance * (p_phase / light->pdf / choice.probability);
+    if (is_black(unshadowed) || occluded(x, *light))
+        return;
+    const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);
+    const Rgb value = state.beta * unshadowed * weight;
+    (state.path_class == PathClass::surface ? result_.indirect : result_.medium) += value;
+}
+
+} // namespace glimmer

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The light straight from lights on what the camera sees first. Bevels narrower than a pixel mirror a moon where they
+// happen to lie right: few points of the pixel bring most of its light. So several points compete, each seen by its own
+// camera ray, and one is lit, chosen by the light expected there (Talbot, Cline, Egbert 2005, "Importance Resampling
+// for Global Illumination"): as one term of their sum, divided by the probability of being it, whatever is expected.
+#pragma once
+
+#include "camera/camera_sample.h"
+#include "integrator/direct/ris_target.h"
+#include "integrator/path/path_sample.h"
+
+#include <array>
+
+namespace glimmer {
+
+template <KernelFeatures F>
+void PathSample<F>::pixel_ris() {
+    constexpr float kEven = 0.1f; // of the choice is even, for what was not expected
+    struct Seen {
+        Ray ray;
+        Interaction surface;
+        Rgb beta;
+        float expected;
+    };
+    std::array<Seen, kRisCandidates> points;
+    uint32_t count = 0;
+    float total = 0;
+    constexpr uint32_t kSide = 2;
+    static_assert(kSide * kSide == kRisCandidates);
+    for (uint32_t i = 0; i < kRisCandidates; ++i) {
+        const Vec2f u = sampler_.stratified_2d(kSetPoint + i);
+        const Vec2f u_pixel{(float(i % kSide) + u.x) / kSide, (float(i / kSide) + u.y) / kSide};
+        Seen &point = points[count];
+        point.ray = sample_camera_ray(scene_, pixel_x_, pixel_y_, u_pixel, sampler_.next_2d()).ray;
+        const auto hit = intersect(point.ray);
+        if (!hit)
+            continue;
+        point.surface = scene_.interaction(point.ray, *hit);
+        point.beta = Rgb(1.0f / kRisCandidates);
+        if (F.medium && scene_.medium)
+            point.beta *= scene_.medium->transmittance(hit->t);
+        const float expected = ris_target(scene_, point.surface, -point.ray.direction, sigma_);
+        point.expected = max_component(point.beta) * expected;
+        if (!(point.expected > 0) || !(point.expected < kInfinity)) // nothing rough, or black
+            point.expected = 0;
+        total += point.expected;
+        ++count;
+    }
+    if (count == 0)
+        return;
+    const float even = (total > 0 ? kEven : 1.0f) / float(count), scale = total > 0 ? (1 - kEven) / total : 0.0f;
+    float left = sampler_.next_1d();
+    for (uint32_t i = 0; i < count; ++i) {
+        const float probability = even + scale * points[i].expected;
+        if (left >= probability && i + 1 < count) {
+            left -= probability;
+            continue;
+        }
+        State state;
+        state.ray = points[i].ray;
+        state.beta = points[i].beta * (1 / probability);
+        light_surface(state, points[i].surface);
+        return;
+    }
+}
+
+} // namespace glimmer

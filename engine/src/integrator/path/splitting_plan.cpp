@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrator/path/splitting_plan.h"
+
+#include "camera/camera_sample.h"
+#include "integrator/direct/ris_target.h"
+
+#include <cmath>
+
+namespace glimmer {
+
+namespace {
+
+constexpr uint32_t kPairs = 4096; // a few milliseconds
+constexpr uint64_t kPilotStream = 0x911;
+constexpr double kGlints = 0.8;
+constexpr uint32_t kBranches = 4, kFewBranches = 2;
+
+} // namespace
+
+double pixel_contrast(const Scene &scene) {
+    if (!scene.has_surfaces || scene.lights.size() > LightSet::kWeighedLights)
+        return 0;
+    Sampler sampler(kPilotStream, 0, 0, 0, 0);
+    const FilmSettings &film = scene.film;
+    const auto expected = [&](uint32_t x, uint32_t y) {
+        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
+        const auto hit = scene.accel->intersect(ray);
+        return hit ? double(ris_target(scene, scene.interaction(ray, *hit), -ray.direction, 0)) : 0.0;
+    };
+    double variance = 0, square = 0;
+    for (uint32_t i = 0; i < kPairs; ++i) {
+        const Vec2f u = sampler.next_2d();
+        const uint32_t x = pick_pixel(film.crop_x, film.crop_width, u.x),
+                       y = pick_pixel(film.crop_y, film.crop_height, u.y);
+        const double a = expected(x, y), b = expected(x, y);
+        if (!std::isfinite(a) || !std::isfinite(b))
+            continue;
+        variance += (a - b) * (a - b) / 2;
+        square += a * b;
+    }
+    return square > 0 ? variance / square : 0;
+}
+
+SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &options) {
+    const bool medium = scene.medium && scene.medium->scatters();
+    const bool glints = (options.pixel_points || (options.branch && !medium)) && pixel_contrast(scene) > kGlints;
+    return {!options.branch ? 1 : medium || glints ? kBranches : kFewBranches, options.pixel_points && glints};
+}
+
+} // namespace glimmer

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scattering at surfaces and glass.
+#pragma once
+
+#include "integrator/dielectric_crossing.h"
+#include "integrator/mis.h"
+#include "integrator/path/path_sample.h"
+#include "integrator/shading_frame.h"
+#include "integrator/vpl/bounded_fraction.h"
+
+#include <array>
+#include <cmath>
+
+namespace glimmer {
+
+inline constexpr float kShadowRays = 2;
+
+template <KernelFeatures F>
+void PathSample<F>::note_first_surface(const Interaction &surface) {
+    result_.hit = true;
+    result_.normal = surface.shading_normal;
+    result_.depth = dot(surface.position, scene_.camera.forward);
+    result_.object_index = surface.object_index;
+    result_.material_index = surface.material + 1;
+}
+
+template <KernelFeatures F>
+auto PathSample<F>::oriented(const Interaction &surface, const Vec3f &direction) -> std::optional<OrientedSurface> {
+    const Vec3f wo = -direction;
+    const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
+    const Vec3f geometric = surface.geometric_normal * side;
+    Vec3f shading = surface.shading_normal * side;
+    if (!is_above_horizon(shading, wo))
+        shading = geometric;
+    const Frame frame(shading);
+    const Vec3f wo_local = frame.to_local(wo);
+    if (!(wo_local.z > 0))
+        return std::nullopt;
+    return OrientedSurface{frame, geometric, wo_local};
+}
+
+template <KernelFeatures F>
+void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, Lobes lobes) {
+    const Material &material = scene_.materials[surface.material];
+    if constexpr (F.glass)
+        if (material.kind == MaterialKind::glass) {
+            if (lobes != Lobes::bounded)
+                cross_dielectric(state, surface, material);
+            return;
+        }
+    const Bsdf bsdf = scene_.bsdf(material);
+    if (bsdf.empty() || (lobes == Lobes::remainder && is_bounded(max_value(bsdf))))
+        return;
+    const bool camera = state.depth == 0;
+    const auto surface_frame = oriented(surface, state.ray.direction);
+    if (!surface_frame)
+        return;
+    const auto &[frame, geometric, wo_local] = *surface_frame;
+    if (state.direct_view())
+        result_.albedo = albedo(bsdf);
+
+    // Where mirrors could send each branch to the next surface that branches, one goes on.
+    const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? plan_.branches : 1;
+    const bool lit = camera && plan_.pixel_ris;
+    if (!is_specular(bsdf) && !lit)
+        sample_lights_at(state, surface, bsdf, *surface_frame, branches, lobes);
+
+    for (uint32_t k = 0; k < branches; ++k) {
+        const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe + 2 * k) : sampler_.next_1d(),
+                              camera ? sampler_.stratified_2d(kSetBsdf + 2 * k) : sampler_.next_2d());
+        if (!s || (s->specular && lobes == Lobes::bounded))
+            continue;
+        const Vec3f wi = normalize(frame.to_world(s->wi));
+        if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
+            continue;
+        State next = state;
+        next.beta *= s->weight * (1 / float(branches));
+        next.rr_scale /= float(branches);
+        if (lobes != Lobes::all && !s->specular)
+            next.beta *= fraction_of(lobes, bounded_fraction(s->weight * s->pdf, wo_local.z, s->wi.z));
+        if (!survives(next, surface.position, kRouletteScaleAtSurfaces) || (s->specular && !survives_specular(next)))
+            continue;
+        next.emission_mode = lit && !s->specular ? EmissionMode::skip : EmissionMode::mis;
+        if (s->specular)
+            leave_specular(next, surface, wi);
+        else
+            leave_rough(next, surface, geometric, wi, s->pdf * float(branches));
+        push(next);
+    }
+}
+
+template <KernelFeatures F>
+void PathSample<F>::leave_specular(State &state, const Interaction &surface, const Vec3f &wi) {
+    state.ray = {surface.origin_towards(wi), wi};
+    state.origin = {};
+    state.depth_since_first += state.direct_view() ? 0 : 1;
+    ++state.depth;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi,
+                                float pdf) {
+    state.ray = {surface.origin_towards(wi), wi};
+    state.origin = {};
+    state.origin.kind = ScatterKind::surface;
+    state.origin.all_lights = every_light(true) || state.direct_view();
+    state.origin.pdf = pdf;
+    state.origin.position = light_sampling_origin(surface, geometric);
+    state.specular_depth = 0;
+    if (state.direct_view())
+        state.path_class = PathClass::surface;
+    ++state.depth_since_first;
+    ++state.depth;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::light_surface(const State &state, const Interaction &surface) {
+    const Material &material = scene_.materials[surface.material];
+    const Bsdf bsdf = scene_.bsdf(material);
+    const auto surface_frame = oriented(surface, state.ray.direction);
+    if (material.kind == MaterialKind::glass || is_specular(bsdf) || !surface_frame)
+        return;
+    sample_lights_at(state, surface, bsdf, *surface_frame, 1, Lobes::all);
+    const auto s =
+        sample(bsdf, surface_frame->wo, sampler_.stratified_1d(kSetPointLobe), sampler_.stratified_2d(kSetPointBsdf));
+    if (!s || s->specular)
+        return;
+    const Vec3f wi = normalize(surface_frame->frame.to_world(s->wi));
+    if (!(dot(wi, surface_frame->geometric) > 0))
+        return;
+    State next = state;
+    next.emission_mode = EmissionMode::only;
+    next.beta *= s->weight;
+    leave_rough(next, surface, surface_frame->geometric, wi, s->pdf);
+    if (may_meet_light(next.ray))
+        push(next);
+}
+
+template <KernelFeatures F>
+void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf,
+                                     const OrientedSurface &surface_frame, uint32_t branches, Lobes lobes) {
+    const auto &[frame, geometric, wo] = surface_frame;
+    if (scene_.lights.size() == 0)
+        return;
+    const bool camera = state.depth == 0, all = state.direct_view();
+    const HomogeneousMedium *medium = medium_of(state);
+    const Vec3f x = light_sampling_origin(surface, geometric);
+    struct Candidate {
+        LightSample light;
+        Rgb value; ///< unless hidden
+        float part;
+    };
+    std::array<Candidate, kAllLights> candidates;
+    uint32_t count = 0;
+    const bool few_rays = (!all || (camera && plan_.pixel_ris)) && every_light(true);
+    for (uint32_t i = 0; i < choices(all || few_rays); ++i) {
+        const LightChoice choice = choose(i, all || few_rays, x);
+        const auto light =
+            sample_light(choice.index, x, camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
+        if (!light || !(dot(light->direction, geometric) > 0))
+            continue;
+        const Vec3f wi = frame.to_local(light->direction);
+        if (!(wi.z > 0))
+            continue;
+        const Rgb f_cos = eval(bsdf, wo, wi);
+        Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
+        if (medium)
+            value *= medium->transmittance(light->distance);
+        if (lobes != Lobes::all)
+            value *= fraction_of(lobes, bounded_fraction(f_cos, wo.z, wi.z));
+        if (!light->delta && !is_black(value))
+            value *= balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
+        if (!is_black(value))
+            candidates[count++] = {*light, value, value.r + value.g + value.b};
+    }
+    Rgb &sum = state.path_class == PathClass::none      ? result_.direct
+               : state.path_class == PathClass::surface ? result_.indirect
+                                                        : result_.medium;
+    float parts = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        parts += candidates[i].part;
+    for (uint32_t i = 0; i < count; ++i) {
+        Candidate &c = candidates[i];
+        // Beyond the first surface about kShadowRays are spent, on each light by its part of the sum.
+        const float tested = few_rays ? std::min(kShadowRays * c.part / parts, 1.0f) : 1.0f;
+        if (tested < 1 && !(sampler_.next_1d() < tested))
+            continue;
+        if (!occluded(surface.origin_towards(c.light.direction), c.light, surface.error))
+            sum += state.beta * c.value * (1 / tested);
+    }
+}
+
+template <KernelFeatures F>
+void PathSample<F>::cross_dielectric(State &state, const Interaction &surface, const Material &material) {
+    const DielectricCrossing crossing(surface, material, state.ray.direction, state.glass);
+    const DielectricSample s = sample_dielectric(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
+    const Vec3f wi = crossing.to_world(s.wi);
+    if (!crossing.possible(wi, s.transmitted))
+        return;
+    state.beta *= s.weight;
+    state.rr_scale *= s.weight.r;
+    if (s.transmitted)
+        state.glass = crossing.beyond;
+    if (!survives(state, surface.position, kRouletteScaleAtSurfaces) || !survives_specular(state))
+        return;
+    leave_specular(state, surface, wi);
+    push(state);
+}
+
+} // namespace glimmer
