@@ -25,7 +25,7 @@ def export_instances(evaluated_object: Any, depsgraph: Any) -> list[tuple[Any, N
         return None
     if not (modifier.show_render if depsgraph.mode == "RENDER" else modifier.show_viewport):
         return None
-    collection = modifier.get(node_group.plates_socket(modifier.node_group))
+    collection = node_group.plates(modifier)
     points = read_points(original.data)
     if collection is None or points is None:
         return None

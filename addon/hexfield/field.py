@@ -99,8 +99,7 @@ def _rebuild_plates(obj: Any, parameters: FieldParameters) -> None:
     if modifier is None:
         modifier = obj.modifiers.new(node_group.NAME, "NODES")
         modifier.node_group = node_group.ensure()
-    socket = node_group.plates_socket(modifier.node_group)
-    current = modifier.get(socket)
+    current = node_group.plates(modifier)
     key = parameters.key(Part.PLATES)
     materials = [obj.glimmer_field.plate_material, obj.glimmer_field.bevel_material]
     if current is not None and _is_made_of(current, key, materials):
@@ -113,7 +112,7 @@ def _rebuild_plates(obj: Any, parameters: FieldParameters) -> None:
         _fill_plates(wanted, parameters, materials)
         wanted[_PLATES_KEY] = key
     if wanted != current:
-        modifier[socket] = wanted
+        node_group.set_plates(modifier, wanted)
         sweep()
     obj.update_tag()
 

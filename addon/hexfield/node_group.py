@@ -31,8 +31,24 @@ def find_modifier(obj: Any) -> Any:
     return None
 
 
-def plates_socket(group: Any) -> str:
-    """The key under which a modifier of this group holds the collection of prototypes."""
+def plates(modifier: Any) -> Any:
+    """The collection of prototypes that a modifier of this group is given, or None."""
+    identifier = _plates_socket(modifier.node_group)
+    if hasattr(modifier, "properties"):  # 5.2
+        return getattr(modifier.properties.inputs, identifier).value
+    return modifier.get(identifier)
+
+
+def set_plates(modifier: Any, collection: Any) -> None:
+    identifier = _plates_socket(modifier.node_group)
+    if hasattr(modifier, "properties"):  # 5.2
+        getattr(modifier.properties.inputs, identifier).value = collection
+    else:
+        modifier[identifier] = collection
+
+
+def _plates_socket(group: Any) -> str:
+    """The name under which a modifier of this group holds its inputs: an ID property before 5.2."""
     sockets = group.interface.items_tree if hasattr(group, "interface") else group.inputs
     return str(next(socket.identifier for socket in sockets if socket.name == "Plates"))
 

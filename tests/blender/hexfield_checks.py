@@ -69,8 +69,7 @@ def assert_export_is_the_loop(obj: Any) -> int:
 
 
 def plates_of(obj: Any) -> Any:
-    modifier = node_group.find_modifier(obj)
-    return modifier[node_group.plates_socket(modifier.node_group)]
+    return node_group.plates(node_group.find_modifier(obj))
 
 
 def points_of(obj: Any) -> Any:
