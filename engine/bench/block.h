@@ -5,6 +5,7 @@
 #include "camera/camera_sample.h"
 #include "integrator/path/kernels.h"
 #include "integrator/path/path_integrator.h"
+#include "sampling/dimensions.h"
 
 #include <benchmark/benchmark.h>
 
@@ -36,7 +37,9 @@ Rgb block_sum(const BlockWorld &w, uint32_t index, const Trace &trace) {
     for (uint32_t y = w.pixels.y; y < w.pixels.y + w.pixels.height; ++y)
         for (uint32_t x = w.pixels.x; x < w.pixels.x + w.pixels.width; ++x) {
             Sampler sampler(1, x, y, 0, index);
-            sum += trace(sample_camera_ray(w.scene, x, y, sampler.stratified_2d(0), sampler.stratified_2d(1)), sampler)
+            sum += trace(sample_camera_ray(w.scene, x, y, sampler.stratified_2d(dimension(Dimension::film)),
+                                           sampler.stratified_2d(dimension(Dimension::lens))),
+                         sampler)
                        .radiance();
         }
     return sum;

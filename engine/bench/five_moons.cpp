@@ -110,12 +110,12 @@ class Minimal {
     Rgb light_along(const Ray &ray, float end, uint32_t i, const Sampler &sampler) const {
         const Moon &moon = moons_[i];
         const EquiangularTable line(medium_, ray.origin, ray.direction, end, moon.bound.center, moon.bound.radius);
-        const DistanceSample at = line.sample(sampler.stratified_1d(16 + 2 * i));
+        const DistanceSample at = line.sample(sampler.stratified_1d(dimension(Dimension::segment_distance, i)));
         if (!(at.pdf > 0) || !(at.t < kInfinity))
             return {};
         const Vec3f x = ray.origin + ray.direction * at.t;
-        const auto s =
-            sample_sphere(moon.sphere.center - Vec3d(x), moon.sphere.radius, sampler.stratified_2d(17 + 2 * i));
+        const auto s = sample_sphere(moon.sphere.center - Vec3d(x), moon.sphere.radius,
+                                     sampler.stratified_2d(dimension(Dimension::segment_light, i)));
         if (!s)
             return {};
         const Rgb value = Rgb(sigma_s_) * Rgb(transmittance(at.t + s->distance)) * moon.radiance *

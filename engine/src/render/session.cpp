@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "camera/camera_sample.h"
+#include "sampling/dimensions.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,9 +21,6 @@ constexpr uint64_t kLargestBatch = 64;
 constexpr uint64_t kLargestSharedBatch = 16; // what passes share is kept for the batch
 constexpr double kTileSeconds = 0.25; // a tile of a batch should take no longer: cancel and the display wait for it
 constexpr uint64_t kDefaultSamples = 64;
-
-// Stratified sample sets of the film and the lens; the integrators' begin at 2.
-enum Set : uint32_t { kSetPixel = 0, kSetLens = 1 };
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -336,8 +334,9 @@ bool Session::render_tile(size_t index, uint64_t first, uint64_t end, double dea
                             if (!shared && !batch_.passes.empty())
                                 shared = integrator_->prepare_block(*batch_.passes[s - batch_.first], block, rays);
                             Sampler sampler(settings_.seed, x, y, uint32_t(s % kReplicates), uint32_t(i));
-                            const CameraRay camera = sample_camera_ray(*scene_, x, y, sampler.stratified_2d(kSetPixel),
-                                                                       sampler.stratified_2d(kSetLens));
+                            const CameraRay camera =
+                                sample_camera_ray(*scene_, x, y, sampler.stratified_2d(dimension(Dimension::film)),
+                                                  sampler.stratified_2d(dimension(Dimension::lens)));
                             const FilmSample value = integrator_->sample(camera, sampler, shared.get(), rays);
                             if (value.unfinished && stop_.load(std::memory_order_relaxed))
                                 return false;

@@ -14,11 +14,14 @@ namespace glimmer {
 /// Numbers depend on (seed, pixel, replicate, index) and on which call it is, on nothing else: no thread, tile or
 /// order. A value type of a few words; copy it to replay.
 ///
-/// next_*: independent numbers from a counter, without end. stratified_*(set): the point `index` of an Owen-scrambled
-/// Sobol sequence of two dimensions; sets are scrambled and shuffled independently of each other (padded), and so are
-/// pixels and replicates. Within a pixel and replicate, indices 0, 1, 2, ... of a set are stratified against each
-/// other. A set is meant for one decision at one vertex of a path: never spread one set over different vertices. All
-/// floats are multiples of 2^-24 in [0, 1), never 1.
+/// next_*: independent numbers from a counter, without end.
+///
+/// stratified_*(dimension): the point `index` of an Owen-scrambled Sobol sequence of two dimensions. Each `dimension`
+/// (dimensions.h) has a scramble and a shuffle of its own (padding), and so have pixels and replicates. Within a pixel
+/// and replicate, the indices 0, 1, 2, ... of a dimension are stratified against each other. A dimension is meant for
+/// one decision at one vertex of a path: never spread one over different vertices.
+///
+/// All floats are multiples of 2^-24 in [0, 1), never 1.
 class Sampler {
   public:
     Sampler(uint64_t seed, uint32_t pixel_x, uint32_t pixel_y, uint32_t replicate, uint32_t index)
@@ -35,22 +38,25 @@ class Sampler {
     /// Unit-mean exponential variate, from 3e-20 to 45.
     float next_exponential() { return exponential(next_bits()); }
 
-    float stratified_1d(uint32_t set) const { return unit_float(point(set).x); }
-    Vec2f stratified_2d(uint32_t set) const {
-        const SobolPoint p = point(set);
+    float stratified_1d(uint32_t dimension) const { return unit_float(point(dimension).x); }
+    Vec2f stratified_2d(uint32_t dimension) const {
+        const SobolPoint p = point(dimension);
         return {unit_float(p.x), unit_float(p.y)};
     }
-    /// 64 bits of which the upper 32 are the set's first coordinate and the rest independent, for exponential variates.
-    uint64_t stratified_bits(uint32_t set) const {
-        return static_cast<uint64_t>(point(set).x) << 32 | (hash64(stream_, set) & 0xffffffffu);
+    /// 64 bits of which the upper 32 are the point's first coordinate and the rest independent, for exponential
+    /// variates.
+    uint64_t stratified_bits(uint32_t dimension) const {
+        return static_cast<uint64_t>(point(dimension).x) << 32 | (hash64(stream_, dimension) & 0xffffffffu);
     }
 
     uint32_t index() const { return index_; }
 
   private:
-    SobolPoint point(uint32_t set) const { return owen_sobol(index_, hash64(scramble_, set, kSets)); }
+    SobolPoint point(uint32_t dimension) const {
+        return owen_sobol(index_, hash64(scramble_, dimension, kDimensionStream));
+    }
 
-    static constexpr uint64_t kSets = 0x5e7; // keeps the keys of sets apart from those of streams
+    static constexpr uint64_t kDimensionStream = 0x5e7; // keeps the scrambles' keys apart from the streams'
     uint64_t scramble_, stream_, step_, counter_ = 0;
     uint32_t index_;
 };

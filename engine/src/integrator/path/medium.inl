@@ -29,12 +29,14 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
         if (scene_.lights.bound(choice.index).infinite)
             continue; // an endless medium lets nothing through from there
         const EquiangularTable line = equiangular_table(choice.index, origin, direction, end);
-        const DistanceSample at = line.sample(camera ? sampler_.stratified_1d(kSetLine + 2 * i) : sampler_.next_1d());
+        const DistanceSample at = line.sample(camera ? sampler_.stratified_1d(dimension(Dimension::segment_distance, i))
+                                                     : sampler_.next_1d());
         if (!(at.pdf > 0) || !(at.t < kInfinity))
             continue;
         const Vec3f x = origin + direction * at.t;
         const auto light =
-            sample_light(choice.index, x, camera ? sampler_.stratified_2d(kSetLine + 2 * i + 1) : sampler_.next_2d());
+            sample_light(choice.index, x,
+                         camera ? sampler_.stratified_2d(dimension(Dimension::segment_light, i)) : sampler_.next_2d());
         if (!light)
             continue;
         const float p_phase = phase.eval(direction, light->direction);
@@ -60,9 +62,9 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
 template <KernelFeatures F>
 void PathSample<F>::split_into_medium(const State &state, float end, const HomogeneousMedium &medium) {
     const bool camera = state.depth == 0;
-    const Collision c =
-        camera ? sample_collision(medium, state.beta, end, sampler_.next_1d(), sampler_.stratified_bits(kSetCollision))
-               : sample_collision(medium, state.beta, end, sampler_);
+    const Collision c = camera ? sample_collision(medium, state.beta, end, sampler_.next_1d(),
+                                                  sampler_.stratified_bits(dimension(Dimension::medium_distance)))
+                               : sample_collision(medium, state.beta, end, sampler_);
     if (c.pdf > 0)
         scatter_in_medium(state, end, medium, c.t, c.weight, c.pdf);
 }
@@ -95,7 +97,8 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Homog
         return;
     const bool camera = state.depth == 0;
     const PhaseSample s = HenyeyGreenstein{medium.g}.sample(
-        state.ray.direction, camera ? sampler_.stratified_2d(kSetPhase) : sampler_.next_2d());
+        state.ray.direction,
+        camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction)) : sampler_.next_2d());
     next.ray = {x, s.direction};
     next.origin = {ScatterKind::medium,
                    state.direct_view(),

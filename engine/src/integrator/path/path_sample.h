@@ -7,6 +7,7 @@
 #include "integrator/path/path_state.h"
 #include "integrator/roulette.h"
 #include "light/equiangular_table.h"
+#include "sampling/dimensions.h"
 
 #include <cmath>
 #include <vector>
@@ -19,19 +20,11 @@ inline constexpr uint32_t kRisCandidates = 4; // compete for being lit where bev
 inline constexpr size_t kBranches =
     24; // unfinished branches of one camera sample; beyond, segments are no longer split
 
-/// Stratified sample sets of the camera's own segment; everything later draws independent numbers. The film has 0
-/// and 1.
-enum Set : uint32_t {
-    kSetCollision = 2,
-    kSetPhase,
-    kSetLine = 16,
-    kSetLight = 80,
-    kSetLobe = 128, // and, by twos, of each branch
-    kSetBsdf,
-    kSetPoint = 160,
-    kSetPointLobe = 176,
-    kSetPointBsdf
-};
+static_assert(kAllLights <= dimension_count(Dimension::segment_distance) &&
+              kAllLights <= dimension_count(Dimension::segment_light) &&
+              kAllLights <= dimension_count(Dimension::surface_light));
+static_assert(kManyLights <= kAllLights);
+static_assert(kRisCandidates <= dimension_count(Dimension::candidate_film));
 
 /// The branches of one sample, kept from sample to sample so that the path loop allocates nothing.
 template <class State>

@@ -28,7 +28,7 @@ void PathSample<F>::pixel_ris() {
     constexpr uint32_t kSide = 2;
     static_assert(kSide * kSide == kRisCandidates);
     for (uint32_t i = 0; i < kRisCandidates; ++i) {
-        const Vec2f u = sampler_.stratified_2d(kSetPoint + i);
+        const Vec2f u = sampler_.stratified_2d(dimension(Dimension::candidate_film, i));
         const Vec2f u_pixel{(float(i % kSide) + u.x) / kSide, (float(i / kSide) + u.y) / kSide};
         Seen &point = points[count];
         point.ray = sample_camera_ray(scene_, pixel_x_, pixel_y_, u_pixel, sampler_.next_2d()).ray;

@@ -3,6 +3,7 @@
 
 #include "camera/camera_sample.h"
 #include "integrator/direct/ris_target.h"
+#include "sampling/dimensions.h"
 
 #include <cmath>
 
@@ -14,6 +15,8 @@ constexpr uint32_t kPairs = 4096; // a few milliseconds
 constexpr uint64_t kPilotStream = 0x911;
 constexpr double kGlints = 0.8;
 constexpr uint32_t kBranches = 4, kFewBranches = 2;
+static_assert(kBranches <= dimension_count(Dimension::branch_lobe) &&
+              kBranches <= dimension_count(Dimension::branch_direction));
 
 } // namespace
 

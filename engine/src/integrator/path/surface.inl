@@ -66,8 +66,9 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
         sample_lights_at(state, surface, bsdf, *surface_frame, branches, lobes);
 
     for (uint32_t k = 0; k < branches; ++k) {
-        const auto s = sample(bsdf, wo_local, camera ? sampler_.stratified_1d(kSetLobe + 2 * k) : sampler_.next_1d(),
-                              camera ? sampler_.stratified_2d(kSetBsdf + 2 * k) : sampler_.next_2d());
+        const auto s = sample(
+            bsdf, wo_local, camera ? sampler_.stratified_1d(dimension(Dimension::branch_lobe, k)) : sampler_.next_1d(),
+            camera ? sampler_.stratified_2d(dimension(Dimension::branch_direction, k)) : sampler_.next_2d());
         if (!s || (s->specular && lobes == Lobes::bounded))
             continue;
         const Vec3f wi = normalize(frame.to_world(s->wi));
@@ -121,8 +122,8 @@ void PathSample<F>::light_surface(const State &state, const Interaction &surface
     if (material.kind == MaterialKind::glass || is_specular(bsdf) || !surface_frame)
         return;
     sample_lights_at(state, surface, bsdf, *surface_frame, 1, Lobes::all);
-    const auto s =
-        sample(bsdf, surface_frame->wo, sampler_.stratified_1d(kSetPointLobe), sampler_.stratified_2d(kSetPointBsdf));
+    const auto s = sample(bsdf, surface_frame->wo, sampler_.stratified_1d(dimension(Dimension::candidate_lobe)),
+                          sampler_.stratified_2d(dimension(Dimension::candidate_direction)));
     if (!s || s->specular)
         return;
     const Vec3f wi = normalize(surface_frame->frame.to_world(s->wi));
@@ -156,7 +157,8 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
     for (uint32_t i = 0; i < choices(all || few_rays); ++i) {
         const LightChoice choice = choose(i, all || few_rays, x);
         const auto light =
-            sample_light(choice.index, x, camera ? sampler_.stratified_2d(kSetLight + i) : sampler_.next_2d());
+            sample_light(choice.index, x,
+                         camera ? sampler_.stratified_2d(dimension(Dimension::surface_light, i)) : sampler_.next_2d());
         if (!light || !(dot(light->direction, geometric) > 0))
             continue;
         const Vec3f wi = frame.to_local(light->direction);
