@@ -148,8 +148,6 @@ void write_results(const RenderOptions &options, const LoadedScene &scene, glimm
 int run_render(const RenderOptions &options) {
     catch_interrupts();
     ProgressLine line(options.quiet);
-    if (options.curve)
-        expect_plottable(*options.curve);
 
     const auto load_start = Clock::now();
     const std::string file = options.scene.string();
@@ -162,6 +160,9 @@ int run_render(const RenderOptions &options) {
     show_warnings(scene.scene.get(), file, line);
 
     const RenderHandle render = create_render(scene.scene.get(), scene.limits, options);
+    expect_writable(options.output);
+    if (options.curve)
+        expect_plottable(*options.curve);
     if (options.checkpoint && load_checkpoint(*options.checkpoint, scene.hash, render.get()))
         line.say(options.checkpoint->string() + ": going on from " + std::to_string(poll(render.get()).samples) +
                  " spp");

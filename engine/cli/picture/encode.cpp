@@ -3,20 +3,20 @@
 
 #include "atomic_file.h"
 #include "errors.h"
-
-#include <OpenImageIO/filesystem.h>
+#include "image_library.h"
+#include "text.h"
 
 namespace glimmer {
 
-void write_image(const OIIO::ImageSpec &spec, OIIO::TypeDesc type, const void *pixels, const char *format,
+void write_image(const ImageHeader &header, const std::vector<float> &pixels, PixelType type,
                  const std::filesystem::path &path) {
-    OIIO::Filesystem::IOVecOutput memory;
-    const auto output = OIIO::ImageOutput::create(format);
-    const bool written = output && output->set_ioproxy(&memory) && output->open(path.string(), spec) &&
-                         output->write_image(type, pixels) && output->close();
-    if (!written)
-        throw ResultError(path.string() + ": cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
-    const auto &bytes = memory.buffer();
+    const ImageIo &io = image_io();
+    std::vector<uint8_t> bytes;
+    try {
+        bytes = io.encode(header, pixels, type);
+    } catch (const std::runtime_error &error) {
+        throw ResultError(path.string() + ": cannot be written: " + one_line(error.what()));
+    }
     write_file(path, {reinterpret_cast<const char *>(bytes.data()), bytes.size()});
 }
 

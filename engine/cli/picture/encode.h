@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Images through OpenImageIO to files that are whole or not there.
+// Images to files that are whole or not there.
 #pragma once
 
-#include <OpenImageIO/imageio.h>
+#include "image_io.h"
+
 #include <filesystem>
 
 namespace glimmer {
 
-/// Encodes in memory and writes in one piece: OpenImageIO's own .png writer does not notice a full disk.
-/// Throws ResultError "FILE: why".
-void write_image(const OIIO::ImageSpec &spec, OIIO::TypeDesc type, const void *pixels, const char *format,
+/// Encodes in memory and writes in one piece: OpenImageIO's own .png writer does not notice a full disk. header and
+/// pixels as ImageIo::encode takes them. Throws ResultError "FILE: why".
+void write_image(const ImageHeader &header, const std::vector<float> &pixels, PixelType type,
                  const std::filesystem::path &path);
 
 } // namespace glimmer

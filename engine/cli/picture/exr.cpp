@@ -3,10 +3,11 @@
 
 #include "encode.h"
 #include "errors.h"
+#include "image_library.h"
 #include "picture_file.h"
 #include "text.h"
 
-#include <OpenImageIO/imageio.h>
+#include <algorithm>
 
 namespace glimmer {
 namespace {
@@ -28,28 +29,59 @@ std::vector<std::string> split(const std::string &text) {
     return result;
 }
 
+/// The attribute's value; T() where it is missing or of another type.
+template <class T>
+T attribute(const ImageHeader &header, const char *name) {
+    const auto found = header.attributes.find(name);
+    const T *value = found == header.attributes.end() ? nullptr : std::get_if<T>(&found->second);
+    return value == nullptr ? T() : *value;
+}
+
+PictureInfo info_of(const ImageHeader &header) {
+    return {static_cast<uint64_t>(std::max(attribute<int>(header, "glimmer:spp"), 0)),
+            split(attribute<std::string>(header, "glimmer:seed")),
+            double(attribute<float>(header, "glimmer:seconds")),
+            attribute<std::string>(header, "glimmer:version"),
+            attribute<std::string>(header, "glimmer:scene"),
+            attribute<std::string>(header, "glimmer:integrator"),
+            split(attribute<std::string>(header, "glimmer:biased_by"))};
+}
+
+/// Null: no file of this format.
+std::unique_ptr<ImageReader> open_exr(const std::filesystem::path &path) {
+    const ImageIo &io = image_io();
+    try {
+        auto reader = io.open(path.string());
+        return reader->header().format == "openexr" ? std::move(reader) : nullptr;
+    } catch (const std::runtime_error &) {
+        return nullptr;
+    }
+}
+
 } // namespace
 
 void write_exr(const Picture &picture, const std::filesystem::path &path) {
-    OIIO::ImageSpec spec(static_cast<int>(picture.window_width()), static_cast<int>(picture.window_height()),
-                         static_cast<int>(picture.channels.size()), OIIO::TypeFloat);
-    spec.channelnames = picture.channels;
-    spec.x = static_cast<int>(picture.window[0]);
-    spec.y = static_cast<int>(picture.window[1]);
-    spec.full_width = static_cast<int>(picture.width);
-    spec.full_height = static_cast<int>(picture.height);
     const PictureInfo &info = picture.info;
-    spec["oiio:ColorSpace"] = "linear";
-    spec["compression"] = "zip";
-    spec["Software"] = "Glimmer " + info.version;
-    spec["glimmer:spp"] = static_cast<int>(info.samples);
-    spec["glimmer:seed"] = joined(info.seeds);
-    spec["glimmer:seconds"] = static_cast<float>(info.seconds);
-    spec["glimmer:version"] = info.version;
-    spec["glimmer:scene"] = info.scene_hash;
-    spec["glimmer:integrator"] = info.integrator;
-    spec["glimmer:biased_by"] = joined(info.biased_by);
-    write_image(spec, OIIO::TypeFloat, picture.pixels.data(), "openexr", path);
+    const ImageHeader header{"openexr",
+                             static_cast<int>(picture.window[0]),
+                             static_cast<int>(picture.window[1]),
+                             static_cast<int>(picture.window_width()),
+                             static_cast<int>(picture.window_height()),
+                             1,
+                             static_cast<int>(picture.width),
+                             static_cast<int>(picture.height),
+                             picture.channels,
+                             "linear",
+                             {{"compression", "zip"},
+                              {"Software", "Glimmer " + info.version},
+                              {"glimmer:spp", static_cast<int>(info.samples)},
+                              {"glimmer:seed", joined(info.seeds)},
+                              {"glimmer:seconds", static_cast<float>(info.seconds)},
+                              {"glimmer:version", info.version},
+                              {"glimmer:scene", info.scene_hash},
+                              {"glimmer:integrator", info.integrator},
+                              {"glimmer:biased_by", joined(info.biased_by)}}};
+    write_image(header, picture.pixels, PixelType::Float, path);
 }
 
 Picture read_picture(const std::filesystem::path &path) {
@@ -58,29 +90,24 @@ Picture read_picture(const std::filesystem::path &path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         fail("no such file");
-    const auto input = OIIO::ImageInput::open(name);
-    if (!input || input->format_name() != std::string_view("openexr"))
+    const auto reader = open_exr(path);
+    if (!reader)
         fail("is not an .exr file");
-    const OIIO::ImageSpec &spec = input->spec();
+    const ImageHeader &header = reader->header();
     Picture picture;
-    PictureInfo &info = picture.info;
-    info.samples = static_cast<uint64_t>(std::max(spec.get_int_attribute("glimmer:spp"), 0));
-    info.scene_hash = spec.get_string_attribute("glimmer:scene");
-    info.seeds = split(spec.get_string_attribute("glimmer:seed"));
-    if (info.samples == 0 || info.scene_hash.empty() || info.seeds.empty())
+    picture.info = info_of(header);
+    if (picture.info.samples == 0 || picture.info.scene_hash.empty() || picture.info.seeds.empty())
         fail("was not written by glimmer: it has no glimmer:spp, glimmer:seed or glimmer:scene");
-    info.seconds = double(spec.get_float_attribute("glimmer:seconds"));
-    info.version = spec.get_string_attribute("glimmer:version");
-    info.integrator = spec.get_string_attribute("glimmer:integrator");
-    info.biased_by = split(spec.get_string_attribute("glimmer:biased_by"));
-    picture.width = static_cast<uint32_t>(spec.full_width);
-    picture.height = static_cast<uint32_t>(spec.full_height);
-    picture.window = {static_cast<uint32_t>(spec.x), static_cast<uint32_t>(spec.y),
-                      static_cast<uint32_t>(spec.x + spec.width), static_cast<uint32_t>(spec.y + spec.height)};
-    picture.channels = spec.channelnames;
-    picture.pixels.resize(picture.pixel_count() * picture.channels.size());
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, picture.pixels.data()))
-        fail("is damaged: " + input->geterror());
+    picture.width = static_cast<uint32_t>(header.full_width);
+    picture.height = static_cast<uint32_t>(header.full_height);
+    picture.window = {static_cast<uint32_t>(header.x), static_cast<uint32_t>(header.y),
+                      static_cast<uint32_t>(header.x + header.width), static_cast<uint32_t>(header.y + header.height)};
+    picture.channels = header.channels;
+    try {
+        picture.pixels = reader->read(static_cast<int>(header.channels.size()));
+    } catch (const std::runtime_error &damage) {
+        fail("is damaged: " + one_line(damage.what()));
+    }
     return picture;
 }
 

@@ -4,6 +4,7 @@
 #include "atomic_file.h"
 #include "encode.h"
 #include "exr.h"
+#include "image_library.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,23 +22,21 @@ std::vector<float> rgb_of(const Picture &picture) {
     return rgb;
 }
 
-OIIO::ImageSpec rgb_spec(const Picture &picture, OIIO::TypeDesc type, const char *color_space) {
-    OIIO::ImageSpec spec(static_cast<int>(picture.window_width()), static_cast<int>(picture.window_height()), 3, type);
-    spec["oiio:ColorSpace"] = color_space;
-    return spec;
+ImageHeader rgb_header(const Picture &picture, const char *format, const char *color_space) {
+    const int width = static_cast<int>(picture.window_width()), height = static_cast<int>(picture.window_height());
+    return {format, 0, 0, width, height, 1, width, height, {"R", "G", "B"}, color_space, {}};
 }
 
 void write_png(const Picture &picture, const std::filesystem::path &path) {
-    const auto rgb = rgb_of(picture);
-    std::vector<uint8_t> bytes(rgb.size());
-    std::transform(rgb.begin(), rgb.end(), bytes.begin(), display_value);
-    write_image(rgb_spec(picture, OIIO::TypeUInt8, "sRGB"), OIIO::TypeUInt8, bytes.data(), "png", path);
+    auto rgb = rgb_of(picture);
+    std::transform(rgb.begin(), rgb.end(), rgb.begin(), [](float value) { return float(display_value(value)) / 255; });
+    write_image(rgb_header(picture, "png", "sRGB"), rgb, PixelType::UInt8, path);
 }
 
 void write_hdr(const Picture &picture, const std::filesystem::path &path) {
     auto rgb = rgb_of(picture); // RGBE has no sign
     std::transform(rgb.begin(), rgb.end(), rgb.begin(), [](float value) { return std::max(value, 0.0f); });
-    write_image(rgb_spec(picture, OIIO::TypeFloat, "linear"), OIIO::TypeFloat, rgb.data(), "hdr", path);
+    write_image(rgb_header(picture, "hdr", "linear"), rgb, PixelType::Float, path);
 }
 
 /// Portable float map: "PF", the size, -1 for little-endian, then rows from the bottom up.
@@ -58,6 +57,11 @@ std::string lower_extension(const std::filesystem::path &path) {
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return char(std::tolower(c)); });
     return extension;
+}
+
+void expect_writable(const std::filesystem::path &path) {
+    if (lower_extension(path) != ".pfm")
+        image_io();
 }
 
 uint8_t display_value(float linear) {

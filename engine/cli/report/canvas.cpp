@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canvas.h"
 
+#include "image_library.h"
 #include "picture/encode.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <algorithm>
 #include <cmath>
 
@@ -43,27 +42,21 @@ void Canvas::column(int x, double y0, double y1, const Ink &ink) {
 }
 
 void Canvas::text(double x, double y, const std::string &text, int size, Align align, const Ink &ink) {
-    using OIIO::ImageBufAlgo::TextAlignX;
-    OIIO::ImageBuf image(OIIO::ImageSpec(width_, height_, 3, OIIO::TypeFloat), pixels_.data());
-    const TextAlignX align_x = align == Align::Left     ? TextAlignX::Left
-                               : align == Align::Center ? TextAlignX::Center
-                                                        : TextAlignX::Right;
     // On the baseline, a third of the size below the middle: centred by their boxes, "1" and "10e-5" would not line up.
-    OIIO::ImageBufAlgo::render_text(image, int(std::lround(x)), int(std::lround(y + size * 0.36)), text, size, font(),
-                                    ink, align_x);
+    image_io().draw_text(pixels_, width_, height_, int(std::lround(x)), int(std::lround(y + size * 0.36)), text,
+                         {font(), size, ink, align});
 }
 
 void Canvas::write(const std::filesystem::path &path) const {
-    OIIO::ImageSpec spec(width_, height_, 3, OIIO::TypeUInt8);
-    spec["oiio:ColorSpace"] = "sRGB";
-    write_image(spec, OIIO::TypeFloat, pixels_.data(), "png", path);
+    write_image({"png", 0, 0, width_, height_, 1, width_, height_, {"R", "G", "B"}, "sRGB", {}}, pixels_,
+                PixelType::UInt8, path);
 }
 
 std::string Canvas::font() {
     static const std::string found = [] {
         for (const char *name :
              {"DejaVuSans", "DejaVu Sans", "NotoSans-Regular", "LiberationSans-Regular", "DroidSans", ""})
-            if (OIIO::ImageBufAlgo::text_size("0", 12, name).defined())
+            if (image_io().has_font(name))
                 return std::string(name);
         return std::string();
     }();

@@ -2,7 +2,8 @@
 // Just enough drawing for a plot: smooth lines, discs, spans and text on white.
 #pragma once
 
-#include <array>
+#include "image_io.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ using Ink = std::array<float, 3>; ///< sRGB, 0 to 1
 
 class Canvas {
   public:
-    enum class Align { Left, Center, Right };
+    using Align = TextStyle::Align;
 
     Canvas(int width, int height);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Images through OpenImageIO.
+// Images of the environment.
 #pragma once
 
 #include <filesystem>

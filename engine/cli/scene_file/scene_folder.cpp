@@ -4,19 +4,20 @@
 #include "errors.h"
 #include "text.h"
 
-#include <OpenImageIO/hash.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#define XXH_INLINE_ALL // no library to load
+#include <xxhash.h>
 
 namespace glimmer {
 
 namespace fs = std::filesystem;
 
 uint64_t hash_bytes(std::string_view bytes, uint64_t seed) {
-    return OIIO::xxhash::XXH64(bytes.data(), bytes.size(), seed);
+    return XXH64(bytes.data(), bytes.size(), seed);
 }
 
 std::string read_file(const fs::path &path, const std::string &name) {
