@@ -1,77 +1,85 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A perspective camera, pinhole or thin lens. The scene's origin is where it stands, so its rays start near 0.
+// The camera: one of a closed set of kinds, each in a file of its own. The scene's origin is where it stands, so that
+// rays start near 0; but only the kinds know that, and what they see from there.
 #pragma once
 
-#include "geometry/ray.h"
-#include "math/vec.h"
+#include "camera/perspective.h"
 
-#include <cmath>
-#include <cstdint>
-#include <optional>
+#include <utility>
+#include <variant>
 
 namespace glimmer {
 
-struct CameraRay {
-    Ray ray;                   ///< t_max: the far clipping plane along this ray
-    uint32_t pixel_x, pixel_y; ///< of the whole picture
-};
-
-/// A point as the camera sees it.
-struct Projection {
-    Vec2f film;             ///< as for Camera::generate; may lie outside 0 to 1
-    Vec3f start, direction; ///< of the ray to it
-    float distance, t;      ///< of the point from the lens, and from `start`
-    float solid_angle;      ///< seen from the lens, of the whole film were it all as this place is
-};
-
-struct Camera {
-    Vec3f right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; ///< orthonormal
-    float tan_half_x = 1;                                 ///< tangent of half the horizontal angle
-    float aspect = 1;                                     ///< height / width
-    Vec2f shift;                                          ///< in widths
-    float lens_radius = 0, focus_distance = 0;            ///< lengths
-    float clip_start = 0, clip_end = kInfinity;           ///< lengths along the axis
-
-    /// No ray starts further from the origin.
-    float farthest_start() const {
-        const float x = (1 + 2 * std::abs(shift.x)) * tan_half_x, y = (aspect + 2 * std::abs(shift.y)) * tan_half_x;
-        const float lean = lens_radius > 0 ? lens_radius / focus_distance : 0;
-        return lens_radius + clip_start * (std::sqrt(1 + x * x + y * y) + lean);
+class Camera {
+    template <class Function>
+    decltype(auto) visit(const Function &function) const {
+        return std::visit(function, kind_);
     }
+
+  public:
+    using Kind = std::variant<PerspectiveCamera>;
+
+    Camera() = default;
+    Camera(Kind kind) : kind_(std::move(kind)) {}
 
     /// The ray through a point of the film (x right, y down, both 0 to 1) and a point of the lens (unit disk).
     CameraRay generate(Vec2f film, Vec2f lens) const {
-        const float sx = (2 * film.x - 1 + 2 * shift.x) * tan_half_x;
-        const float sy = ((1 - 2 * film.y) * aspect + 2 * shift.y) * tan_half_x;
-        const Vec3f pinhole = forward + right * sx + up * sy; // 1 along the axis
-        Vec3f origin, along = pinhole;
-        if (lens_radius > 0) {
-            origin = (right * lens.x + up * lens.y) * lens_radius;
-            along = pinhole - origin / focus_distance;
-        }
-        const float inv_cosine = length(along);
-        const Vec3f direction = along / inv_cosine;
-        origin += direction * (clip_start * inv_cosine);
-        return {{origin, direction, (clip_end - clip_start) * inv_cosine}, 0, 0};
+        return visit([&](const auto &c) { return c.generate(film, lens); });
     }
 
     /// The inverse: where a point is seen from a point of the lens (unit disk); nothing behind the clipping planes.
     std::optional<Projection> project(const Vec3f &x, Vec2f lens) const {
-        const Vec3f from = (right * lens.x + up * lens.y) * lens_radius, way = x - from;
-        const float depth = dot(way, forward), distance = length(way);
-        if (!(depth > clip_start && depth < clip_end))
-            return std::nullopt;
-        Vec3f pinhole = way / depth;
-        if (lens_radius > 0)
-            pinhole += from / focus_distance;
-        const float sx = dot(pinhole, right) / tan_half_x, sy = dot(pinhole, up) / tan_half_x;
-        const Vec2f film{(sx + 1) / 2 - shift.x, (1 - (sy - 2 * shift.y) / aspect) / 2};
-        const float cosine = depth / distance, hidden = clip_start / cosine;
-        const Vec3f direction = way / distance;
-        return Projection{
-            film,     from + direction * hidden, direction,
-            distance, distance - hidden,         4 * tan_half_x * tan_half_x * aspect * cosine * cosine * cosine};
+        return visit([&](const auto &c) { return c.project(x, lens); });
     }
+
+    /// Whether generate and project look at `lens` at all.
+    bool has_lens() const {
+        return visit([](const auto &c) { return c.has_lens(); });
+    }
+
+    /// The part of a ray outside which nothing is seen in this part of the film, whatever stands in the way; empty
+    /// (begin >= end) where that is all of it. Without a lens, the smallest one.
+    RayInterval clip(const Ray &ray, const FilmRectangle &film) const {
+        return visit([&](const auto &c) { return c.clip(ray, film); });
+    }
+
+    /// A point of the part `seen` (see clip) of a ray of light, drawn in proportion to what the film would receive from
+    /// it, as nearly as is known. extinction: by length, of the medium that carries the light to the point and on.
+    PointOnRay sample_seen(const Ray &ray, const RayInterval &seen, float extinction, float u) const {
+        return visit([&](const auto &c) { return c.sample_seen(ray, seen, extinction, u); });
+    }
+
+    /// Where a sphere is seen, and `margin` around it, a length on the film in units of half its width; none where the
+    /// camera is within the sphere. No bound: of a wide lens the edge of the blur may lie outside.
+    std::optional<Silhouette> silhouette(const Vec3f &center, float radius, float margin) const {
+        return visit([&](const auto &c) { return c.silhouette(center, radius, margin); });
+    }
+    bool sees_any(const std::vector<Silhouette> &silhouettes, Vec2f film) const {
+        return visit([&](const auto &c) { return c.sees_any(silhouettes, film); });
+    }
+
+    /// How far a point is from where rays start, but for the near plane and the lens: beyond the reach of what is seen
+    /// this still grows.
+    float distance(const Vec3f &x) const {
+        return visit([&](const auto &c) { return c.distance(x); });
+    }
+
+    /// Along the axis.
+    float depth(const Vec3f &x) const {
+        return visit([&](const auto &c) { return c.depth(x); });
+    }
+
+    /// How wide a fixed small part of the film is t from where a ray starts, in a unit of the camera's own.
+    float footprint(float t) const {
+        return visit([&](const auto &c) { return c.footprint(t); });
+    }
+
+    StartRegion start_region() const {
+        return visit([](const auto &c) { return c.start_region(); });
+    }
+
+  private:
+    Kind kind_;
 };
 
 } // namespace glimmer

@@ -22,7 +22,7 @@ CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel
     const FilmSettings &film = scene.film;
     const Vec2f at{(float(pixel_x) + 0.5f + filter_offset(film, u_pixel.x)) / float(film.width),
                    (float(pixel_y) + 0.5f + filter_offset(film, u_pixel.y)) / float(film.height)};
-    CameraRay ray = scene.camera.generate(at, scene.camera.lens_radius > 0 ? sample_uniform_disk(u_lens) : Vec2f{});
+    CameraRay ray = scene.camera.generate(at, scene.camera.has_lens() ? sample_uniform_disk(u_lens) : Vec2f{});
     ray.pixel_x = pixel_x;
     ray.pixel_y = pixel_y;
     return ray;

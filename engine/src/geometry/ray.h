@@ -15,6 +15,11 @@ struct Ray {
     float t_max = kInfinity;
 };
 
+/// A part of a ray, by distances from its origin.
+struct RayInterval {
+    float begin, end;
+};
+
 /// The closest surface on a ray: a triangle of an instance, or a sphere.
 struct Hit {
     float t = kInfinity;

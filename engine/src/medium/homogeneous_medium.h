@@ -44,6 +44,15 @@ inline SimdMedium simd_view(const HomogeneousMedium &m) {
     return {m.sigma_t.r, m.sigma_t.g, m.sigma_t.b, m.g, m.monochromatic};
 }
 
+/// Of the channels that scatter; infinite where none does.
+inline float least_scattering_extinction(const HomogeneousMedium &m) {
+    float least = kInfinity;
+    for (int c = 0; c < 3; ++c)
+        if (m.sigma_s[c] > 0)
+            least = std::min(least, m.sigma_t[c]);
+    return least;
+}
+
 /// sqrt(3 (1 - albedo)) sigma_t of the channel that carries light furthest: how fast light scattered many times dies
 /// away, per length. 0 where nothing scatters.
 inline float effective_attenuation(const HomogeneousMedium &m) {

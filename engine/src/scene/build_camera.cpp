@@ -45,17 +45,18 @@ void SceneBuilder::build_camera_and_film() {
 
     const Affine to_world = affine_from_rows(c.to_world);
     origin_ = to_world.translation;
-    Camera &camera = scene_.camera;
+    PerspectiveCamera camera;
     camera.right = Vec3f(to_world.linear.column(0));
     camera.up = Vec3f(to_world.linear.column(1));
     camera.forward = -Vec3f(to_world.linear.column(2));
-    camera.tan_half_x = float(std::tan(c.fov_x * 3.14159265358979323846 / 360));
+    camera.half_width = float(std::tan(c.fov_x * 3.14159265358979323846 / 360));
     camera.aspect = float(f.height) / float(f.width);
     camera.shift = {float(c.shift[0]), float(c.shift[1])};
     camera.lens_radius = float(c.lens_radius);
     camera.focus_distance = float(c.focus_distance);
     camera.clip_start = float(c.clip_start);
     camera.clip_end = float(c.clip_end);
+    scene_.camera = Camera(camera);
 
     FilmSettings &film = scene_.film;
     film.width = f.width;

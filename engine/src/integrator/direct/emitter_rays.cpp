@@ -16,18 +16,13 @@ constexpr uint32_t kMostDiscs = 64; // beyond, the look at each would cost more 
 EmitterRays::EmitterRays(const Scene &scene, uint32_t rays) : scene_(scene), rays_(rays) {
     if (rays == 0)
         return;
-    const Camera &camera = scene.camera;
-    const float footprint = std::sqrt(2.0f) * scene.film.filter_width * camera.tan_half_x / float(scene.film.width);
+    const float margin = std::sqrt(2.0f) * scene.film.filter_width / float(scene.film.width);
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
         if (!std::holds_alternative<SphereLight>(scene.lights[i]))
             continue;
         const LightBound &b = scene.lights.bound(i);
-        const float distance = length(b.center);
-        if (!(b.radius < distance))
-            continue;
-        const float blur =
-            camera.lens_radius > 0 ? camera.lens_radius * std::abs(1 / distance - 1 / camera.focus_distance) : 0;
-        discs_.push_back({b.center / distance, std::asin(b.radius / distance) + footprint + blur});
+        if (const auto disc = scene.camera.silhouette(b.center, b.radius, margin))
+            discs_.push_back(*disc);
     }
     if (discs_.size() > kMostDiscs)
         discs_.clear();
@@ -38,11 +33,7 @@ uint32_t EmitterRays::rays(uint32_t pixel_x, uint32_t pixel_y) const {
         return 0;
     const FilmSettings &film = scene_.film;
     const Vec2f middle{(float(pixel_x) + 0.5f) / float(film.width), (float(pixel_y) + 0.5f) / float(film.height)};
-    const Vec3f direction = scene_.camera.generate(middle, {}).ray.direction;
-    for (const Disc &disc : discs_)
-        if (std::atan2(length(cross(direction, disc.direction)), dot(direction, disc.direction)) <= disc.angle)
-            return rays_;
-    return 0;
+    return scene_.camera.sees_any(discs_, middle) ? rays_ : 0;
 }
 
 Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &counter) const {

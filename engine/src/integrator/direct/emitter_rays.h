@@ -21,13 +21,9 @@ class EmitterRays {
     Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &counter) const;
 
   private:
-    struct Disc {
-        Vec3f direction; ///< unit, from the camera
-        float angle;     ///< half of its width, and of the widest footprint of a pixel there; radians
-    };
     const Scene &scene_;
     uint32_t rays_;
-    std::vector<Disc> discs_;
+    std::vector<Silhouette> discs_; ///< of the spheres, widened by half a pixel and its filter
 };
 
 } // namespace glimmer

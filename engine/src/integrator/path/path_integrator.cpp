@@ -12,7 +12,8 @@ namespace {
 class PathIntegrator final : public Integrator {
   public:
     PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &options, bool full_kernel)
-        : scene_(scene), limits_(limits), options_(options), around_camera_(dielectrics_at(scene, Vec3f())),
+        : scene_(scene), limits_(limits), options_(options),
+          around_camera_(dielectrics_at(scene, scene.camera.start_region().center)),
           seen_lights_(scene, around_camera_.empty() && !rays_start_apart() ? kLightRays * options.light_rays : 0) {
         if (options_.light_vertices && options_.segment_lights && options_.deep_segment_lights)
             pool_ = plan_light_vertex_cache(scene, limits, around_camera_);
@@ -67,7 +68,7 @@ class PathIntegrator final : public Integrator {
 
   private:
     /// A lens or the near plane may carry camera rays across a wall of glass.
-    bool rays_start_apart() const { return scene_.has_dielectrics && scene_.camera.farthest_start() > 0; }
+    bool rays_start_apart() const { return scene_.has_dielectrics && scene_.camera.start_region().radius > 0; }
 
     const Scene &scene_;
     DepthLimits limits_;

@@ -19,7 +19,7 @@ template <KernelFeatures F>
 void PathSample<F>::note_first_surface(const Interaction &surface) {
     result_.hit = true;
     result_.normal = surface.shading_normal;
-    result_.depth = dot(surface.position, scene_.camera.forward);
+    result_.depth = scene_.camera.depth(surface.position);
     result_.object_index = surface.object_index;
     result_.material_index = surface.material + 1;
 }

@@ -41,14 +41,16 @@ bool PathSample<F>::gather(State &state, float scale, float t, float roulette_sc
     const Rgb value = state.beta * pool_->pool.gather(x, state.ray.direction, sampler_, rays_);
     (state.path_class == PathClass::surface ? result_.indirect : result_.medium) += value;
     const float u = sampler_.next_1d(); // P(k d0(x) > d) = 1 - w(d)
-    const float k = std::sqrt((1 - u) / std::max(u, 1e-12f)) * pool_->settings.clamp_distance_scale(x);
+    const float k =
+        std::sqrt((1 - u) / std::max(u, 1e-12f)) * pool_->settings.clamp_distance_scale(scene_.camera.distance(x));
     state.medium_compensation_radius = k * pool_->settings.medium_clamp_distance;
     state.surface_compensation_radius = k * pool_->settings.surface_clamp_distance;
     const Vec3f seen = state.ray.direction;
     state.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(seen, sampler_.next_2d()).direction};
     const float splat = t > 0 ? sampler_.next_1d() : 1;
     if constexpr (F.surfaces) // nothing else sends beams
-        state.splatted = t > 0 && splat < splat_share(t, seen, state.ray.direction, pool_->settings);
+        state.splatted =
+            t > 0 && splat < splat_share(scene_.camera.footprint(t), seen, state.ray.direction, pool_->settings);
     state.origin = {};
     ++state.depth;
     ++state.scatter;

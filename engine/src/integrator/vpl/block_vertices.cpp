@@ -155,7 +155,7 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
     alignas(64) std::array<float, VplSettings::medium_picks> medium_parts;
     std::array<float, VplSettings::surface_picks> surface_parts;
     std::array<Rgb, VplSettings::surface_picks> surface_values;
-    const float clamp_distance_scale = settings_.clamp_distance_scale(x);
+    const float clamp_distance_scale = settings_.clamp_distance_scale(scene_.camera.distance(x));
     const float medium_clamp_distance = clamp_distance_scale * settings_.medium_clamp_distance,
                 surface_clamp_distance = clamp_distance_scale * settings_.surface_clamp_distance;
     Rgb total;

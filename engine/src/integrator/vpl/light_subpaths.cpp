@@ -349,16 +349,16 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
             shares[i] = (total > 0 ? double(kGuidedStart) * shares[i] / total + double(1 - kGuidedStart) / finite
                                    : 1.0 / finite);
     LightSubpath path(scene, importance, settings, sampler, rays, out);
+    const StartRegion camera = scene.camera.start_region();
     // One systematic draw: light i gets its share of the paths, to within one.
     double cursor = double(sampler.next_1d()), sum = 0;
     for (uint32_t i = 0; i < lights.size(); ++i) {
         sum += shares[i] * settings.paths;
         const LightBound &b = lights.bound(i);
-        // A sphere shines to the side on which the camera is, about the origin; to both where its rays may start on
-        // both.
-        const float distance = length(b.center);
-        const bool both = std::holds_alternative<SphereLight>(lights[i]) &&
-                          std::abs(distance - b.radius) <= scene.camera.farthest_start();
+        // A sphere shines to the side on which the camera is; to both where its rays may start on both.
+        const float distance = length(b.center - camera.center);
+        const bool both =
+            std::holds_alternative<SphereLight>(lights[i]) && std::abs(distance - b.radius) <= camera.radius;
         for (; cursor < sum && !stop.load(std::memory_order_relaxed); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
             const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;

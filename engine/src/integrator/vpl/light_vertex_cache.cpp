@@ -95,11 +95,11 @@ void LightVertexCache::set_bounds() {
     settings_.surface_clamp_distance = 2 * bound;
     std::vector<float> distances;
     for (const Vec3f &q : points)
-        distances.push_back(length(q)); // the camera stands at the origin
+        distances.push_back(scene_.camera.distance(q));
     if (!distances.empty()) {
         std::nth_element(distances.begin(), distances.begin() + long(distances.size() / 2), distances.end());
         settings_.median_distance = distances[distances.size() / 2];
-        settings_.splat_clamp_distance = kSplatBound * settings_.median_distance;
+        settings_.splat_clamp_distance = kSplatBound * scene_.camera.footprint(settings_.median_distance);
     }
     settings_.effective_attenuation = effective_attenuation(*scene_.medium);
 }

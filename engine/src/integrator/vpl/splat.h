@@ -18,11 +18,11 @@ struct Splat {
 };
 
 /// The share of what arrives at a medium point along `light` from an unheld surface that splats bring, when the camera
-/// sees the point directly, along `seen`, t from where its ray starts; rays from the gathers bring the rest. A beam
-/// that passes the camera at the distance h is bright as 1/h wherever it is seen: no bound on t alone would bound its
-/// splats.
-inline float splat_share(float t, const Vec3f &seen, const Vec3f &light, const VplSettings &settings) {
-    return bounding_weight(t * length(cross(seen, light)), settings.splat_clamp_distance);
+/// sees the point directly, along `seen`, where a part of the film is `footprint` wide (Camera::footprint); rays from
+/// the gathers bring the rest. A beam that passes a perspective camera at the distance h is bright as 1/h wherever it
+/// is seen: no bound on the point's distance alone would bound its splats.
+inline float splat_share(float footprint, const Vec3f &seen, const Vec3f &light, const VplSettings &settings) {
+    return bounding_weight(footprint * length(cross(seen, light)), settings.splat_clamp_distance);
 }
 
 /// A segment of a light path through the medium that began at an unheld surface.
@@ -35,9 +35,9 @@ struct SubpathSegment {
 /// Whether any of it can be in the picture, whatever stands in the way.
 bool is_seen(const Scene &scene, const Ray &beam);
 
-/// Joins points of the beam with random points of the lens (Dutre, Lafortune, Willems 1993), the points drawn by their
-/// angle about the camera, which takes the place of 1/t^2: radiance = power sigma_s T / pdf / (4 pi) T / (t^2 d omega)
-/// times the filter, in every pixel whose filter holds the point's image.
+/// Joins points of the beam (Camera::sample_seen) with random points of the lens (Dutre, Lafortune, Willems 1993):
+/// radiance = power sigma_s T / pdf / (4 pi) T / A times the filter, in every pixel whose filter holds the point's
+/// image, where A is the area that the pixel sees there, t^2 d omega for a perspective camera.
 void splat(const Scene &scene, const SubpathSegment &beam, const VplSettings &settings, Sampler &sampler,
            TraceContext &rays, std::vector<Splat> &out);
 
