@@ -30,12 +30,16 @@ NOT_CERTIFIABLE = "Not certifiable: heavy tails"
 
 
 def status(progress: Progress, samples: int) -> str:
-    """The line that Blender shows while rendering. samples: of each pixel in the end; 0 is no limit."""
+    """The line that Blender shows while rendering, and prints in background, where `build.py render` reads it and who
+    watches a render farm looks for "Error". samples: of each pixel in the end; 0 is no limit.
+    """
     parts = [f"Sample {progress.samples}/{samples}" if samples else f"Sample {progress.samples}"]
+    if progress.fraction > 0:
+        parts.append(f"{100 * progress.fraction:.0f} %")
     if progress.seconds_left is not None:
         parts.append(f"Left {clock(progress.seconds_left)}")
     if not isnan(progress.relmse):
-        parts.append(f"Error {error_text(progress.relmse, progress.relmse_low, progress.relmse_high)}")
+        parts.append(f"relMSE {error_text(progress.relmse, progress.relmse_low, progress.relmse_high)}")
         if progress.heavy_tails:
             parts.append(NOT_CERTIFIABLE)
         if progress.seconds_to_target is not None:
