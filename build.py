@@ -17,7 +17,7 @@ import subprocess
 import sys
 import time
 import zipfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,40 +41,143 @@ def say(text: str) -> None:
     sys.stdout.flush()
 
 
+def not_installed(program: str) -> BuildError:
+    return BuildError(f"{program} is not installed; `python3 build.py setup --test` installs what is missing")
+
+
 def run(command: Sequence[str | Path], cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:
     """Runs a command with its output passed through; a failure names the command."""
     words = [str(word) for word in command]
     try:
         status = subprocess.run(words, cwd=cwd, env=env, check=False).returncode
     except FileNotFoundError:
-        raise BuildError(
-            f"{words[0]} is not installed; `python3 build.py setup --test` installs what is missing"
-        ) from None
+        raise not_installed(words[0]) from None
     if status != 0:
         raise BuildError(f"exit status {status} from: {shlex.join(words)}")
 
 
-def run_blender(command: Sequence[str | Path], env: dict[str, str]) -> int:
-    """Runs Blender and returns its exit status. Passes its output on, progress lines ("Fra:1 Mem:...") in place on a
-    terminal, else one in 10 s.
+# ---- Progress ----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a step has come."""
+
+    step: str
+    fraction: float | None = None  # None: nothing tells yet
+    left: str = ""  # time, as "1:12"
+    details: tuple[str, ...] = ()
+
+    def text(self, bar: bool) -> str:
+        parts = [self.step]
+        if self.fraction is not None:
+            done = round(24 * self.fraction)
+            parts += [f"[{'#' * done}{'-' * (24 - done)}]"] if bar else []
+            parts.append(f"{100 * self.fraction:3.0f} %")
+        if self.left:
+            parts.append(f"{self.left} left")
+        return "  ".join([*parts, *self.details])
+
+
+LINE_SECONDS = 10.0  # from one line of progress to the next where it is no terminal that shows them
+
+
+class Bar:
+    """Progress as one line: on a terminal in place, else a line now and then, and the last one."""
+
+    def __init__(self) -> None:
+        self._terminal = sys.stdout.isatty()
+        self._next = 0.0
+        self._pending = ""  # what stands on the terminal's last line, or what no line has told yet
+
+    def show(self, progress: Progress) -> None:
+        self._pending = progress.text(bar=self._terminal)
+        if self._terminal:
+            self._pending = self._pending[: shutil.get_terminal_size().columns - 1]
+            sys.stdout.write(f"\r{self._pending}\x1b[K")
+            sys.stdout.flush()
+        elif time.monotonic() >= self._next:
+            self._next = time.monotonic() + LINE_SECONDS
+            self.close()
+
+    def say(self, line: str) -> None:
+        """A line above the bar."""
+        if not (self._terminal and self._pending):
+            say(line)
+            return
+        sys.stdout.write(f"\r\x1b[K{line}\n{self._pending}")
+        sys.stdout.flush()
+
+    def close(self) -> None:
+        """Leaves the last state to be read."""
+        if self._pending:
+            say("" if self._terminal else self._pending)
+        self._pending = ""
+
+
+def watch(
+    command: Sequence[str | Path],
+    read: Callable[[str], Progress | None],
+    cwd: Path = ROOT,
+    env: dict[str, str] | None = None,
+) -> int:
+    """Runs a command and returns its exit status. What `read` makes of a line of its output is shown as progress; lines
+    that it makes nothing of are passed on.
     """
-    progress = re.compile(r"Fra:\d+ ")
-    terminal, shown, pending = sys.stdout.isatty(), 0.0, False
-    with subprocess.Popen([str(w) for w in command], cwd=ROOT, env=env, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        for line in map(str.rstrip, process.stdout):
-            if not progress.match(line):
-                say(("\n" if pending else "") + line)
-                pending = False
-            elif terminal:
-                width = shutil.get_terminal_size().columns - 1
-                sys.stdout.write("\r" + line[:width].ljust(width))
-                sys.stdout.flush()
-                pending = True
-            elif time.monotonic() - shown > 10:
-                say(line)
-                shown = time.monotonic()
+    bar = Bar()
+    words = [str(word) for word in command]
+    try:
+        with subprocess.Popen(
+            words,
+            cwd=cwd,
+            env=env,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+        ) as process:
+            assert process.stdout is not None
+            for line in map(str.rstrip, process.stdout):
+                progress = read(line)
+                if progress is None:
+                    bar.say(line)
+                else:
+                    bar.show(progress)
+    except FileNotFoundError:
+        raise not_installed(words[0]) from None
+    finally:
+        bar.close()
     return process.returncode
+
+
+def compiling(line: str) -> Progress | None:
+    """Reads the lines of Ninja, "[12/102] Building CXX object ..."."""
+    found = re.match(r"\[(\d+)/(\d+)\] ", line)
+    if not found:
+        return None
+    done, total = int(found[1]), int(found[2])
+    if done == 0:  # it looks whether there is something to do
+        return Progress("Building")
+    return Progress("Building", done / total, details=(f"{done} of {total} steps",))
+
+
+def rendering(line: str) -> Progress | None:
+    """Reads Blender's progress, "Fra:1 Mem:20.2M ... | Sample 3/32 | 9 % | Left 01:12 | relMSE 0.02 (0.01 to 0.03)"."""
+    if not re.match(r"Fra:\d+ ", line):
+        return None
+    sample = re.search(r"\bSample (\d+)(?:/(\d+))?", line)
+    if not sample:
+        return Progress("Rendering", details=(re.split(r" \| |^Fra:\d+ ", line)[-1].lower(),))
+    fraction = re.search(r"\| (\d+) %", line)
+    left = re.search(r"\| Left 0?([\d:]+)", line)
+    error = re.search(r"\| (relMSE [^|]*[^| ])", line)
+    samples = f"{sample[1]} of {sample[2]} samples" if sample[2] else f"{sample[1]} samples"
+    return Progress(
+        "Rendering",
+        int(fraction[1]) / 100 if fraction else None,
+        left[1] if left and left[1] != "0:00" else "",
+        (samples, error[1]) if error else (samples,),
+    )
 
 
 # ---- What the machine needs --------------------------------------------------------------------------------------
@@ -250,16 +353,32 @@ def build(preset: str = "release") -> None:
     if not (folder / "build.ninja").exists() or home not in (folder / "CMakeCache.txt").read_text():
         # --fresh: what a failed try or a checkout since moved left behind
         run(["cmake", "--fresh", "--preset", preset], cwd=ENGINE)
-    run(["cmake", "--build", "--preset", preset], cwd=ENGINE)
+    command = ["cmake", "--build", "--preset", preset]
+    env = {**os.environ, "NINJA_STATUS": "[%f/%t] "}
+    status = watch(command, compiling, cwd=ENGINE, env=env)
+    if status != 0:
+        raise BuildError(f"exit status {status} from: {shlex.join(command)}; its reason stands above")
 
 
 @dataclass(frozen=True)
 class RenderOptions:
-    scene: Path
+    scene: Path | None  # None: the default one
     output: Path | None
     samples: int | None
     resolution: int | None
     frame: int | None
+    full: bool = False  # the default scene as large and as clean as its file says; other files are so anyway
+
+
+@dataclass(frozen=True)
+class QuickLook:
+    """What the default scene is rendered with where nothing else is asked for: a picture worth looking at within three
+    minutes on two cores.
+    """
+
+    resolution: int = 60  # percent
+    samples: int = 32
+    seconds: float = 150.0  # of rendering, on a machine that is slower or busy
 
 
 PICTURE_SUFFIXES = (".png", ".exr")
@@ -277,10 +396,24 @@ def make_room(picture: Path) -> None:
         raise BuildError(f"--output: {picture} cannot be written: {reason}") from None
 
 
+def settings_of(options: RenderOptions) -> dict[str, int | float]:
+    """What takes the place of the file's own settings, by the names of render_blend.py's options."""
+    asked = {name: getattr(options, name) for name in ("samples", "resolution", "frame")}
+    settings: dict[str, int | float] = {name: value for name, value in asked.items() if value is not None}
+    if options.scene is not None or options.full:
+        return settings
+    quick = QuickLook()
+    settings.setdefault("resolution", quick.resolution)
+    if "samples" not in settings:
+        settings |= {"samples": quick.samples, "seconds": quick.seconds}
+    return settings
+
+
 def render(blender: str | None, options: RenderOptions) -> None:
-    if not options.scene.exists():
-        raise BuildError(f"{options.scene}: no such file; the scenes are blend_scenes/*.blend")
-    stem = options.output or BUILD / "renders" / options.scene.stem
+    scene = options.scene or DEFAULT_SCENE
+    if not scene.exists():
+        raise BuildError(f"{scene}: no such file; the scenes are blend_scenes/*.blend")
+    stem = options.output or BUILD / "renders" / scene.stem
     if stem.suffix.lower() in PICTURE_SUFFIXES:
         stem = stem.with_suffix("")
     pictures = [stem.with_name(stem.name + suffix) for suffix in PICTURE_SUFFIXES]
@@ -288,19 +421,17 @@ def render(blender: str | None, options: RenderOptions) -> None:
         make_room(picture)  # what stands there afterwards is this render's
     executable = setup(blender, ("build", "render"))
     build()
-    words: list[str | Path] = ["--scene", options.scene, "--output", stem]
-    for name in ("samples", "resolution", "frame"):
-        value = getattr(options, name)
-        if value is not None:
-            words += [f"--{name}", str(value)]
+    settings = settings_of(options)
+    words: list[str | Path] = ["--scene", scene, "--output", stem]
+    for name, value in settings.items():
+        words += [f"--{name}", str(value)]
+    if "seconds" in settings:
+        say("A quick look at glimmervoid, two minutes on two cores; --full renders the picture that README.md shows.")
     started = time.monotonic()
-    status = run_blender(
-        [*host_command(executable, RENDER_SCRIPT), *words], host_environment(BUILD / "profile", executable)
-    )
+    command = [*host_command(executable, RENDER_SCRIPT), *words]
+    status = watch(command, rendering, env=host_environment(BUILD / "profile", executable))
     if status != 0 or not all(picture.exists() for picture in pictures):
-        raise BuildError(
-            f"no picture of {options.scene}; Blender's exit status is {status} and its reason stands above"
-        )
+        raise BuildError(f"no picture of {scene}; Blender's exit status is {status} and its reason stands above")
     say(f"Rendered in {time.monotonic() - started:.1f} s:")
     for picture in pictures:
         say(f"  {picture}")
@@ -477,9 +608,19 @@ def arguments() -> argparse.ArgumentParser:
     item.add_argument("--test", action="store_true", help="also what `test` and `lint` need")
     item = command("build", "Compile the engine; leaves build/bin/glimmer and build/lib/libglimmer.so.")
     item.add_argument("--preset", default="release", choices=("release", "debug", "asan", "tsan", "fuzz"))
-    item = command("render", "Render a .blend with Glimmer in Blender; writes a PNG and an EXR.", blender=True)
+    quick = QuickLook()
+    item = command(
+        "render",
+        "Render a .blend with Glimmer in Blender; writes a PNG and an EXR. A file that is named is rendered with its "
+        f"own settings. Without one it is a quick look at {DEFAULT_SCENE.relative_to(ROOT)}: {quick.resolution} "
+        f"percent of its size and {quick.samples} samples a pixel, or as many as {quick.seconds / 60:g} minutes allow.",
+        blender=True,
+    )
+    item.add_argument("scene", nargs="?", type=Path, metavar="FILE.blend", help="rendered with its own settings")
     item.add_argument(
-        "scene", nargs="?", type=Path, default=DEFAULT_SCENE, help="default: blend_scenes/glimmervoid.blend"
+        "--full",
+        action="store_true",
+        help="glimmervoid as its file has it, the picture that README.md shows: a quarter of an hour on two cores",
     )
     item.add_argument(
         "-o",
@@ -488,9 +629,9 @@ def arguments() -> argparse.ArgumentParser:
         metavar="STEM",
         help="of STEM.png and STEM.exr (default: build/renders/SCENE)",
     )
-    item.add_argument("--samples", type=int, metavar="N", help="samples per pixel, in place of the scene's")
-    item.add_argument("--resolution", type=int, metavar="PERCENT", help="of the scene's resolution, 1 to 100")
-    item.add_argument("--frame", type=int, metavar="N", help="in place of the scene's current frame")
+    item.add_argument("--samples", type=int, metavar="N", help="samples a pixel, in place of those above")
+    item.add_argument("--resolution", type=int, metavar="PERCENT", help="of the file's resolution, 1 to 100")
+    item.add_argument("--frame", type=int, metavar="N", help="in place of the file's current frame")
     item = command("test", "Run the test suite.", blender=True)
     item.add_argument("--full", action="store_true", help="also the long tests, marked `full`")
     item.add_argument("extra", nargs="*", metavar="-- ARGUMENT", help="handed to pytest, as in `test -- -k sphere`")
@@ -557,9 +698,10 @@ def main(argv: Sequence[str]) -> int:
             positive(parser, "samples", given.samples, 1 << 30)
             positive(parser, "resolution", given.resolution, 100)
             output = given.output.absolute() if given.output else None
+            scene = given.scene.absolute() if given.scene else None
             render(
                 given.blender,
-                RenderOptions(given.scene.absolute(), output, given.samples, given.resolution, given.frame),
+                RenderOptions(scene, output, given.samples, given.resolution, given.frame, given.full),
             )
         elif given.command == "test":
             test(given.blender, given.full, given.extra)

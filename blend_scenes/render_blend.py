@@ -22,6 +22,7 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--scene", type=Path, required=True)
     parser.add_argument("--output", type=Path, required=True, metavar="STEM")
     parser.add_argument("--samples", type=int)
+    parser.add_argument("--seconds", type=float, help="of rendering, beside the samples: whichever limit comes first")
     parser.add_argument("--resolution", type=int, metavar="PERCENT")
     parser.add_argument("--frame", type=int)
     return parser.parse_args(argv)
@@ -37,6 +38,13 @@ def save(scene: "bpy.types.Scene", path: Path, file_format: str, depth: str) -> 
     bpy.data.images["Render Result"].save_render(str(path), scene=scene)
 
 
+def print_status(status: str | None, *_: object) -> None:
+    """As Blender prints it up to 4.x. Later ones keep silent, and hand it to this handler instead."""
+    if isinstance(status, str):
+        sys.stdout.write(f"Fra:{bpy.context.scene.frame_current} {status}\n")
+        sys.stdout.flush()
+
+
 def main(argv: Sequence[str]) -> None:
     import addon_utils  # the bpy module brings it with itself: not there before
 
@@ -48,10 +56,13 @@ def main(argv: Sequence[str]) -> None:
     scene.render.engine = "GLIMMER"
     if given.samples is not None:
         scene.glimmer.samples = given.samples
+    if given.seconds is not None:
+        scene.glimmer.use_seconds, scene.glimmer.seconds = True, given.seconds
     if given.resolution is not None:
         scene.render.resolution_percentage = given.resolution
     if given.frame is not None:
         scene.frame_set(given.frame)
+    bpy.app.handlers.render_stats.append(print_status)
     bpy.ops.render.render()
     save(scene, given.output.with_name(given.output.name + ".png"), "PNG", "8")
     save(scene, given.output.with_name(given.output.name + ".exr"), "OPEN_EXR", "32")

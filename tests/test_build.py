@@ -2,12 +2,14 @@
 """build.py: what it installs, how it fails, and that its commands do what its help says."""
 
 import ast
+import io
 import os
 import re
 import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -150,7 +152,106 @@ def test_requirements_are_pinned(name: str) -> None:
     assert all(re.fullmatch(r"[\w-]+==[\d.]+", line) for line in pins)
 
 
+# ---- Progress ----------------------------------------------------------------------------------------------------
+
+
+class Screen(io.StringIO):
+    """Stands in for the standard output."""
+
+    def __init__(self, terminal: bool) -> None:
+        super().__init__()
+        self.terminal = terminal
+
+    def isatty(self) -> bool:
+        return self.terminal
+
+
+def shown(monkeypatch: pytest.MonkeyPatch, terminal: bool, script: str) -> tuple[int, str]:
+    """Exit status and output of a shell script that is watched as a build is."""
+    screen = Screen(terminal)
+    monkeypatch.setattr(sys, "stdout", screen)
+    monkeypatch.setenv("COLUMNS", "80")
+    status = build.watch(["sh", "-c", script], build.compiling)
+    monkeypatch.undo()
+    return status, screen.getvalue()
+
+
+TWO_STEPS = "echo '[1/4] Building a'; echo strange >&2; echo '[3/4] Building b'; exit 3"
+
+
+def test_on_a_terminal_progress_is_a_bar_in_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    status, text = shown(monkeypatch, True, TWO_STEPS)
+    first = "Building  [######------------------]   25 %  1 of 4 steps"
+    last = "Building  [##################------]   75 %  3 of 4 steps"
+    assert text == f"\r{first}\x1b[K\r\x1b[Kstrange\n{first}\r{last}\x1b[K\n"
+    assert status == 3
+
+
+def test_elsewhere_progress_is_a_line_now_and_then_and_the_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    many = 'for i in $(seq 1 50); do echo "[$i/50] Building a"; done'
+    assert shown(monkeypatch, False, TWO_STEPS) == (
+        3,
+        "Building   25 %  1 of 4 steps\nstrange\nBuilding   75 %  3 of 4 steps\n",
+    )
+    assert shown(monkeypatch, False, many) == (0, "Building    2 %  1 of 50 steps\nBuilding  100 %  50 of 50 steps\n")
+    monkeypatch.setattr(build, "LINE_SECONDS", 0.0)
+    assert shown(monkeypatch, False, many)[1].count("\n") == 50
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("Fra:1 Mem:18.25M (Peak 18.28M) | Time:00:00.03 | Reading the scene", "Rendering  reading the scene"),
+        ("Fra:1 Building", "Rendering  building"),
+        ("Fra:1 Mem:18.2M (Peak 18.4M) | Time:00:01.21 | Sample 0/32 | Engine 58 MB", "Rendering  0 of 32 samples"),
+        (
+            "Fra:1 Mem:20.23M (Peak 20.29M) | Time:01:31.21 | Sample 3/32 | 9 % | Left 04:12"
+            " | relMSE 0.11 (0.073 to 3.6) | Engine 58 MB",
+            "Rendering  [##----------------------]    9 %  4:12 left  3 of 32 samples  relMSE 0.11 (0.073 to 3.6)",
+        ),
+        (
+            "Fra:12 Sample 32/32 | 100 % | Left 00:00 | relMSE 0.02 | Engine 58 MB",
+            "Rendering  [########################]  100 %  32 of 32 samples  relMSE 0.02",
+        ),
+        ("Fra:1 Sample 7 | Left 11:00:02 | Engine 58 MB", "Rendering  11:00:02 left  7 samples"),
+    ],
+)
+def test_what_blender_prints_becomes_readable(line: str, text: str) -> None:
+    progress = build.rendering(line)
+    assert progress is not None and progress.text(bar=True) == text
+
+
+def test_a_missing_program_is_named() -> None:
+    with pytest.raises(build.BuildError, match=r"^no-such-program is not installed; "):
+        build.watch(["no-such-program"], build.rendering)
+
+
+def test_other_lines_of_blender_are_no_progress() -> None:
+    assert build.rendering("Read blend: /scenes/Fra:1 glimmervoid.blend") is None
+    assert build.rendering("Warning: Glimmer: Sample 3/32") is None
+
+
 # ---- Rendering ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "settings"),
+    [
+        ({}, {"resolution": 60, "samples": 32, "seconds": 150.0}),
+        ({"samples": 3}, {"resolution": 60, "samples": 3}),  # as many as asked for, however long they take
+        ({"resolution": 100}, {"resolution": 100, "samples": 32, "seconds": 150.0}),
+        ({"frame": 7}, {"resolution": 60, "samples": 32, "seconds": 150.0, "frame": 7}),
+        ({"full": True}, {}),
+        ({"full": True, "samples": 3}, {"samples": 3}),
+        ({"scene": build.DEFAULT_SCENE}, {}),  # named by the user: as the file has it
+        ({"scene": build.DEFAULT_SCENE, "resolution": 50, "frame": 7}, {"resolution": 50, "frame": 7}),
+    ],
+)
+def test_the_first_picture_is_quick_and_a_named_file_has_its_own_settings(
+    options: dict[str, Any], settings: dict[str, float]
+) -> None:
+    given = {"scene": None, "output": None, "samples": None, "resolution": None, "frame": None, **options}
+    assert build.settings_of(build.RenderOptions(**given)) == settings
 
 
 def test_render_writes_a_png_and_an_exr_and_prints_their_paths(tmp_path: Path) -> None:
@@ -161,6 +262,8 @@ def test_render_writes_a_png_and_an_exr_and_prints_their_paths(tmp_path: Path) -
     assert result.stdout.split()[-2:] == [f"{stem}.png", f"{stem}.exr"]
     assert (tmp_path / "picture.png").read_bytes().startswith(b"\x89PNG")
     assert (tmp_path / "picture.exr").read_bytes().startswith(b"\x76\x2f\x31\x01")
+    assert "Rendering  100 %  1 of 1 samples" in result.stdout
+    assert "Fra:" not in result.stdout
 
 
 def test_a_target_that_cannot_be_written_is_told_before_rendering(tmp_path: Path) -> None:
@@ -170,7 +273,7 @@ def test_a_target_that_cannot_be_written_is_told_before_rendering(tmp_path: Path
         result = build_py("render", "--samples", "1", "--output", stem)
         assert result.returncode == 1
         assert "--output" in result.stderr and str(stem) in result.stderr and reason in result.stderr
-        assert "Fra:" not in result.stdout
+        assert "Rendering" not in result.stdout
 
 
 def test_without_a_blender_it_renders_in_the_bpy_module(bpy_python: Path, tmp_path: Path) -> None:
@@ -186,6 +289,7 @@ def test_without_a_blender_it_renders_in_the_bpy_module(bpy_python: Path, tmp_pa
     result = build_py("render", "--samples", "1", "--resolution", "10", "--output", stem, PATH=str(programs))
     assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
     assert "Blender quit" not in result.stdout
+    assert "Rendering  100 %  1 of 1 samples" in result.stdout
     assert {path.name for path in tmp_path.iterdir()} == {"bin", "picture.png", "picture.exr"}
 
 
