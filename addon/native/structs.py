@@ -218,7 +218,7 @@ class TileDesc(ctypes.Structure):
 
 
 class PassInfo(ctypes.Structure):
-    _fields_ = [("name", c_char_p), ("channels", c_char_p), ("help", c_char_p)]
+    _fields_ = [("name", c_char_p), ("channels", c_char_p), ("help", c_char_p), ("rule", c_int)]
 
 
 class IntegratorInfo(ctypes.Structure):

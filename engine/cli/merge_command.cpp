@@ -2,6 +2,7 @@
 #include "merge_command.h"
 
 #include "errors.h"
+#include "glimmer.h"
 #include "picture/picture_file.h"
 #include "text.h"
 
@@ -12,56 +13,44 @@
 namespace glimmer {
 namespace {
 
-constexpr float kNoDepth = 1e10f; // what the depth pass shows where nothing was hit
-
-/// How the samples of a channel of several pictures become those of one.
-enum class Rule {
-    Mean,          ///< weighed by samples
-    StandardError, ///< of that mean: the root of the sum of squared weighed errors
-    Depth,         ///< Mean over the pictures that hit something (weighed by samples: their hits are not known)
-    First,         ///< an index is not a quantity
-    Sum
-};
-
-Rule rule_of(const std::string &channel) {
+/// How the values of a channel of several pictures become one: by the rule of its pass. Channels without a layer are
+/// those of the combined pass.
+glimmer_pass_rule rule_of(const std::string &channel) {
     const std::string layer = channel.substr(0, channel.find('.'));
-    if (layer == "stderr")
-        return Rule::StandardError;
-    if (layer == "depth")
-        return Rule::Depth;
-    if (layer == "object_index" || layer == "material_index")
-        return Rule::First;
-    return layer == "sample_count" ? Rule::Sum : Rule::Mean;
+    for (uint32_t i = 0; const auto *info = glimmer_pass_info(i); ++i)
+        if (layer == info->name)
+            return info->rule;
+    return GLIMMER_RULE_MEAN;
 }
 
 /// The same value of all pictures, joined. weights sum to 1.
-float join(Rule rule, const std::vector<float> &values, const std::vector<double> &weights) {
+float join(glimmer_pass_rule rule, const std::vector<float> &values, const std::vector<double> &weights) {
     double sum = 0, weight_sum = 0;
     for (size_t i = 0; i < values.size(); ++i) {
         const auto value = double(values[i]);
         switch (rule) {
-        case Rule::Mean:
+        case GLIMMER_RULE_MEAN:
             sum += weights[i] * value;
             break;
-        case Rule::StandardError:
+        case GLIMMER_RULE_STANDARD_ERROR:
             sum += weights[i] * weights[i] * value * value;
             break;
-        case Rule::Depth:
-            if (values[i] < kNoDepth) {
+        case GLIMMER_RULE_MEAN_OF_HITS: // over the pictures that hit something: their hits are not known
+            if (values[i] < GLIMMER_NO_DEPTH) {
                 sum += weights[i] * value;
                 weight_sum += weights[i];
             }
             break;
-        case Rule::First:
+        case GLIMMER_RULE_FIRST:
             return values[0];
-        case Rule::Sum:
+        case GLIMMER_RULE_COUNT:
             sum += value;
             break;
         }
     }
-    if (rule == Rule::Depth)
-        return weight_sum > 0 ? static_cast<float>(sum / weight_sum) : kNoDepth;
-    return static_cast<float>(rule == Rule::StandardError ? std::sqrt(sum) : sum);
+    if (rule == GLIMMER_RULE_MEAN_OF_HITS)
+        return weight_sum > 0 ? static_cast<float>(sum / weight_sum) : GLIMMER_NO_DEPTH;
+    return static_cast<float>(rule == GLIMMER_RULE_STANDARD_ERROR ? std::sqrt(sum) : sum);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path &file, const std::string &why) {
@@ -100,7 +89,7 @@ void expect_mergeable(const Picture &a, const std::filesystem::path &a_file, con
     for (const auto &[one, one_file, other, other_file] :
          {std::tie(a, a_file, b, b_file), std::tie(b, b_file, a, a_file)})
         for (const std::string &channel : one.channels)
-            if (rule_of(channel) != Rule::StandardError && !has(other, channel))
+            if (rule_of(channel) != GLIMMER_RULE_STANDARD_ERROR && !has(other, channel))
                 refuse(other_file,
                        "has no channel " + in_quotes(channel) + ", which " + in_quotes(one_file.string()) + " has");
 }
@@ -152,7 +141,7 @@ Picture merge(const std::vector<Picture> &pictures) {
         weights.push_back(double(picture.info.samples) / double(result.info.samples));
         places.push_back(positions(picture, result.channels));
     }
-    std::vector<Rule> rules;
+    std::vector<glimmer_pass_rule> rules;
     for (const std::string &channel : result.channels)
         rules.push_back(rule_of(channel));
     std::vector<float> values(pictures.size());

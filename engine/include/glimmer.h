@@ -254,10 +254,21 @@ typedef enum glimmer_pass {
     GLIMMER_PASS_COUNT = 12
 } glimmer_pass;
 
+/* How the samples of a pixel become its value of a pass, and how pictures of several seeds are merged. */
+typedef enum glimmer_pass_rule {
+    GLIMMER_RULE_MEAN = 0,           /* the mean of the samples; merged by sample counts */
+    GLIMMER_RULE_STANDARD_ERROR = 1, /* of the combined mean; merged as the errors of independent means */
+    GLIMMER_RULE_MEAN_OF_HITS = 2,   /* the mean of the samples that hit a surface; GLIMMER_NO_DEPTH where none did */
+    GLIMMER_RULE_FIRST = 3,          /* the first sample's: an index is not a quantity */
+    GLIMMER_RULE_COUNT = 4           /* merged by adding */
+} glimmer_pass_rule;
+#define GLIMMER_NO_DEPTH 1e10f
+
 typedef struct glimmer_pass_info_t {
     const char *name;     /* "combined", "stderr", "albedo", ... as in --aov */
     const char *channels; /* "RGB", "XYZ", "Z" or "X" */
     const char *help;     /* one line */
+    glimmer_pass_rule rule;
 } glimmer_pass_info_t;
 /* Null when pass is out of range. */
 GLIMMER_API const glimmer_pass_info_t *glimmer_pass_info(uint32_t pass);

@@ -11,7 +11,7 @@ import pytest
 from addon.native import structs
 from tests.engine.bits import assert_same_bits, broken_off_within_batches, pictures
 from tests.engine.library import Image, Render, Scene, functions, last_error, pass_table
-from tests.engine.probe.film import sample_plan
+from tests.engine.probe.film import sample_allocation
 from tests.engine.worlds import everything
 
 LOWEST, HIGHEST = 0.25, 4.0
@@ -32,18 +32,18 @@ def test_a_replicate_is_planned_by_three_others_alone(replicate: int) -> None:
     """Not by its own samples, and not by those that it plans: that is what keeps every mean unbiased, and any two
     uncorrelated."""
     sums = noise(1)
-    plan = sample_plan(sums)
+    plan = sample_allocation(sums)
     asked = {(replicate + d) % 8 for d in (1, 2, 3)}
     for other in range(8):
         changed = sums.copy()
         changed[..., other, :] = noise(2)[..., other, :] ** 3
-        differs = (sample_plan(changed)[..., replicate] != plan[..., replicate]).any()
+        differs = (sample_allocation(changed)[..., replicate] != plan[..., replicate]).any()
         assert differs == (other in asked), f"replicate {replicate} and replicate {other}"
 
 
 def test_rates_keep_their_bounds_and_their_mean() -> None:
     """The mean within half a unit of 1/4096, to which rates are rounded."""
-    plan = sample_plan(noise(3))
+    plan = sample_allocation(noise(3))
     assert plan.min() >= LOWEST and plan.max() <= HIGHEST
     assert np.abs(plan.mean(axis=(0, 1)) - 1).max() < 0.5 / 4096 + 1e-6
     left, right = plan[:, :10].mean(), plan[:, -10:].mean()
@@ -51,11 +51,11 @@ def test_rates_keep_their_bounds_and_their_mean() -> None:
 
 
 def test_what_has_no_noise_is_planned_all_the_same() -> None:
-    assert (sample_plan(np.full((9, 7, 8, 3), 2.0)) == 1).all()
-    assert (sample_plan(np.zeros((9, 7, 8, 3))) == 1).all()
+    assert (sample_allocation(np.full((9, 7, 8, 3), 2.0)) == 1).all()
+    assert (sample_allocation(np.zeros((9, 7, 8, 3))) == 1).all()
     one = np.full((30, 30, 8, 3), 2.0)
     one[15, 15, 4] = 9
-    plan = sample_plan(one)
+    plan = sample_allocation(one)
     for replicate in range(8):
         highest = HIGHEST if replicate in (1, 2, 3) else 1
         assert plan[15, 15, replicate] == highest
@@ -67,9 +67,9 @@ def test_sums_out_of_range_are_planned_all_the_same() -> None:
     sums = noise(4)
     sums[3, 5, 2] = np.inf
     for values in (sums, noise(4) * np.float32(1e36), np.full((9, 7, 8, 3), np.inf)):
-        plan = sample_plan(values)
+        plan = sample_allocation(values)
         assert ((plan >= LOWEST) & (plan <= HIGHEST)).all()
-    assert np.allclose(sample_plan(noise(4) * np.float32(1e36)), sample_plan(noise(4)), atol=2 / 4096)
+    assert np.allclose(sample_allocation(noise(4) * np.float32(1e36)), sample_allocation(noise(4)), atol=2 / 4096)
 
 
 @cache

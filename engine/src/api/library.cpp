@@ -38,7 +38,7 @@ const char *glimmer_last_error(void) {
 }
 
 const glimmer_pass_info_t *glimmer_pass_info(uint32_t pass) {
-    return pass < glimmer::kPasses.size() ? &glimmer::kPasses[pass] : nullptr;
+    return pass < glimmer::kPasses.size() ? &glimmer::kPasses[pass].info : nullptr;
 }
 
 const glimmer_integrator_info_t *glimmer_integrator_info(uint32_t index) {

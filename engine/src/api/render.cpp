@@ -132,10 +132,8 @@ glimmer_result glimmer_render_read(glimmer_render *render, glimmer_pass pass, ui
         if (uint32_t(pass) >= GLIMMER_PASS_COUNT)
             fail_argument("read: pass " + std::to_string(int(pass)) + " is not known; allowed: 0 to " +
                           std::to_string(GLIMMER_PASS_COUNT - 1));
-        const bool always =
-            pass == GLIMMER_PASS_COMBINED || pass == GLIMMER_PASS_STDERR || pass == GLIMMER_PASS_SAMPLE_COUNT;
-        if (!always && !(film.passes() & (1u << pass)))
-            fail_argument(std::string("read: the pass \"") + kPasses[pass].name +
+        if (!is_always_there(pass) && !(film.passes() & (1u << pass)))
+            fail_argument(std::string("read: the pass \"") + kPasses[pass].info.name +
                           "\" was not asked for when the render was made");
         if (x > film.width() || width > film.width() - x || y > film.height() || height > film.height() - y)
             fail_argument("read: the rectangle leaves the picture of " + std::to_string(film.width()) + " x " +
@@ -155,7 +153,7 @@ glimmer_result glimmer_render_report(glimmer_render *render, const char **json) 
         glimmer_render &r = checked(render, "render");
         if (!json)
             fail_argument("report: the output is null");
-        r.report = r.session->report_json();
+        r.report = r.session->report();
         *json = r.report.c_str();
     });
 }

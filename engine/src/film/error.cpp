@@ -140,7 +140,7 @@ std::optional<ErrorEstimate> estimate_error(const Film &film, uint32_t look, con
         Counts counts;
         counts.used = uint32_t(std::min<uint64_t>(n, kReplicates));
         counts.total = double(n);
-        counts.epsilon = 1e-4 * mean * mean;
+        counts.epsilon = relmse_epsilon(mean);
         for (uint32_t r = 0; r < counts.used; ++r)
             counts.of[r] = double(replicate_samples(n, r));
         for (uint32_t y = tile.y; y < tile.y + tile.height; ++y)

@@ -16,6 +16,11 @@ inline constexpr double kErrorConfidence = 0.95;
 /// 1.5, three times what the brightest met carries. 0.1 leaves them within the factor that the interval has anyway.
 inline constexpr double kLargestShareAllowed = 0.1;
 
+/// The eps of relMSE: what keeps dark pixels from deciding it. The stopping rule and the sample allocation share it.
+constexpr double relmse_epsilon(double image_mean) {
+    return 1e-4 * image_mean * image_mean; // (0.01 image_mean)^2
+}
+
 /// relMSE = mean over pixels and channels of Var(mean) / (mu^2 + eps), eps = (0.01 * image mean)^2.
 ///
 /// Var(mean) is estimated from pairs of replicates, (m_r - m_q)^2 n_r n_q / ((n_r + n_q) n), and divided by mu^2 from

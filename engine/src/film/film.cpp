@@ -5,7 +5,6 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -13,48 +12,12 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kNoDepth = 1e10f;
-
-bool kept_as_sum(uint32_t pass) {
-    return pass != GLIMMER_PASS_COMBINED && pass != GLIMMER_PASS_STDERR && pass != GLIMMER_PASS_SAMPLE_COUNT;
-}
-
-bool is_index(uint32_t pass) {
-    return pass == GLIMMER_PASS_OBJECT_INDEX || pass == GLIMMER_PASS_MATERIAL_INDEX;
-}
-
-void add_rgb(std::vector<float> &sums, size_t pixel, const Rgb &value, float weight) {
-    if (sums.empty())
-        return;
-    sums[3 * pixel] += value.r * weight;
-    sums[3 * pixel + 1] += value.g * weight;
-    sums[3 * pixel + 2] += value.b * weight;
+/// Whether the film keeps one sum over all samples of the pass; it makes the others from the replicates.
+bool is_kept_as_sum(uint32_t pass) {
+    return kPasses[pass].value != nullptr;
 }
 
 } // namespace
-
-PixelEstimate estimate_pixel(const Replicates &sums, uint64_t n) {
-    PixelEstimate e;
-    const auto used = uint32_t(std::min<uint64_t>(n, kReplicates));
-    for (int c = 0; c < 3; ++c) {
-        double total = 0;
-        for (uint32_t r = 0; r < used; ++r)
-            total += double(sums[r][c]);
-        const double mean = n ? total / double(n) : 0;
-        e.mean[c] = float(mean);
-        if (used < 2) {
-            e.standard_error[c] = std::numeric_limits<float>::quiet_NaN();
-            continue;
-        }
-        double spread = 0;
-        for (uint32_t r = 0; r < used; ++r) {
-            const double count = double(replicate_samples(n, r)), d = double(sums[r][c]) / count - mean;
-            spread += count * d * d;
-        }
-        e.standard_error[c] = float(std::sqrt(spread / (double(used - 1) * double(n))));
-    }
-    return e;
-}
 
 Film::Film(uint32_t width, uint32_t height, uint32_t tile_size, uint32_t passes, bool adaptive)
     : width_(width), height_(height), tile_size_(tile_size), tile_columns_((width + tile_size - 1) / tile_size),
@@ -84,16 +47,17 @@ Film::Film(uint32_t width, uint32_t height, uint32_t tile_size, uint32_t passes,
     const size_t pixels = size_t(width) * height;
     radiance_.resize(pixels);
     for (uint32_t p = 0; p < GLIMMER_PASS_COUNT; ++p)
-        if (kept_as_sum(p) && (passes & (1u << p)))
+        if (is_kept_as_sum(p) && (passes & (1u << p)))
             sums_[p].assign(pixels * pass_channels(glimmer_pass(p)), 0.0f);
     if (passes & (1u << GLIMMER_PASS_DEPTH))
         hits_.assign(pixels, 0.0f);
     if (adaptive)
-        plan_.resize(pixels);
+        allocation_.resize(pixels);
 }
 
 size_t Film::bytes() const {
-    size_t n = radiance_.size() * sizeof(Replicates) + hits_.size() * sizeof(float) + plan_.size() * sizeof(PixelPlan);
+    size_t n = radiance_.size() * sizeof(Replicates) + hits_.size() * sizeof(float) +
+               allocation_.size() * sizeof(PixelAllocation);
     for (const auto &s : sums_)
         n += s.size() * sizeof(float);
     return n;
@@ -114,25 +78,25 @@ uint64_t Film::min_samples() const {
     return least;
 }
 
-void Film::set_plan(const std::vector<PixelPlan> &plan) {
+void Film::set_allocation(const std::vector<PixelAllocation> &allocation) {
     for (size_t i = 0; i < tiles_.size(); ++i) {
         const std::lock_guard lock(tile_locks_[i]); // a reader may be at work
         const Rectangle &tile = tiles_[i];
         for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
             const auto row = ptrdiff_t(size_t(y) * width_ + tile.x);
-            std::copy_n(plan.begin() + row, tile.width, plan_.begin() + row);
+            std::copy_n(allocation.begin() + row, tile.width, allocation_.begin() + row);
         }
     }
-    planned_ = true;
+    allocated_ = true;
 }
 
 uint64_t Film::taken(size_t pixel, uint32_t r, uint64_t n) const {
-    const uint64_t passes = replicate_samples(n, r);
-    return plan_.empty() ? passes : plan_[pixel].taken(r, passes, pixel);
+    const uint64_t waves = replicate_samples(n, r);
+    return allocation_.empty() ? waves : allocation_[pixel].taken(r, waves, pixel);
 }
 
 uint64_t Film::taken(size_t pixel, uint64_t n) const {
-    if (plan_.empty())
+    if (allocation_.empty())
         return n;
     uint64_t sum = 0;
     for (uint32_t r = 0; r < kReplicates; ++r)
@@ -141,26 +105,26 @@ uint64_t Film::taken(size_t pixel, uint64_t n) const {
 }
 
 float Film::covered(size_t pixel, uint64_t n) const {
-    if (plan_.empty() || n <= kPlanPasses)
+    if (allocation_.empty() || n <= kUniformWaves)
         return float(n);
-    float sum = float(kPlanPasses);
+    float sum = float(kUniformWaves);
     for (uint32_t r = 0; r < kReplicates; ++r)
-        sum += float(taken(pixel, r, n) - kPlanPasses / kReplicates) * plan_[pixel].cover(r);
+        sum += float(taken(pixel, r, n) - kUniformWaves / kReplicates) * allocation_[pixel].waves_a_sample(r);
     return sum;
 }
 
-Replicates Film::at_one_a_pass(size_t pixel, uint64_t n) const {
+Replicates Film::at_one_a_wave(size_t pixel, uint64_t n) const {
     Replicates sums = radiance_[pixel];
-    if (!plan_.empty() && n > kPlanPasses)
+    if (!allocation_.empty() && n > kUniformWaves)
         for (uint32_t r = 0; r < kReplicates; ++r)
             sums[r] *= float(replicate_samples(n, r)) / float(taken(pixel, r, n));
     return sums;
 }
 
-SampleRange Film::samples_of_pass(size_t pixel, uint64_t pass) const {
-    const auto r = uint32_t(pass % kReplicates);
-    const uint64_t first = taken(pixel, r, pass);
-    return {first, taken(pixel, r, pass + 1) - first};
+SampleRange Film::samples_of_wave(size_t pixel, uint64_t wave) const {
+    const auto r = uint32_t(wave % kReplicates);
+    const uint64_t first = taken(pixel, r, wave);
+    return {first, taken(pixel, r, wave + 1) - first};
 }
 
 std::array<uint64_t, 2> Film::samples_taken() const {
@@ -180,7 +144,6 @@ std::array<uint64_t, 2> Film::samples_taken() const {
 
 void Film::read(glimmer_pass pass, const Rectangle &where, float *pixels) const {
     const size_t channels = pass_channels(pass);
-    const std::vector<float> &sums = sums_[size_t(pass)];
     // Tile by tile, so that each is locked once.
     for (size_t i = 0; i < tiles_.size(); ++i) {
         const Rectangle &tile = tiles_[i];
@@ -194,29 +157,34 @@ void Film::read(glimmer_pass pass, const Rectangle &where, float *pixels) const 
             for (uint32_t x = x0; x < x1; ++x) {
                 float *out = pixels + ((size_t(y - where.y) * where.width) + (x - where.x)) * channels;
                 const size_t pixel = size_t(y) * width_ + x;
-                const float passes = covered(pixel, n), inverse = passes > 0 ? 1.0f / passes : 0.0f;
-                switch (pass) {
-                case GLIMMER_PASS_COMBINED: {
-                    const Rgb mean = estimate_pixel(at_one_a_pass(pixel, n), n).mean;
-                    out[0] = mean.r, out[1] = mean.g, out[2] = mean.b;
-                    break;
-                }
-                case GLIMMER_PASS_STDERR: {
-                    const Rgb error = estimate_pixel(at_one_a_pass(pixel, n), n).standard_error;
-                    out[0] = error.r, out[1] = error.g, out[2] = error.b;
-                    break;
-                }
-                case GLIMMER_PASS_SAMPLE_COUNT:
-                    out[0] = float(taken(pixel, n));
-                    break;
-                case GLIMMER_PASS_DEPTH:
-                    out[0] = hits_[pixel] > 0 ? sums[pixel] / hits_[pixel] : kNoDepth;
-                    break;
-                default:
-                    for (size_t c = 0; c < channels; ++c)
-                        out[c] = sums[pixel * channels + c] * (is_index(pass) ? 1.0f : inverse);
-                }
+                read_pixel(pass, pixel, n, out);
             }
+    }
+}
+
+void Film::read_pixel(glimmer_pass pass, size_t pixel, uint64_t n, float *out) const {
+    const size_t channels = pass_channels(pass);
+    const float *sums = is_kept_as_sum(pass) ? sums_[size_t(pass)].data() + pixel * channels : nullptr;
+    const auto write = [&](const Rgb &value) { out[0] = value.r, out[1] = value.g, out[2] = value.b; };
+    switch (kPasses[size_t(pass)].info.rule) {
+    case GLIMMER_RULE_STANDARD_ERROR:
+        return write(estimate_pixel(at_one_a_wave(pixel, n), n).standard_error);
+    case GLIMMER_RULE_COUNT:
+        out[0] = float(taken(pixel, n));
+        return;
+    case GLIMMER_RULE_MEAN_OF_HITS:
+        out[0] = hits_[pixel] > 0 ? sums[0] / hits_[pixel] : GLIMMER_NO_DEPTH;
+        return;
+    case GLIMMER_RULE_FIRST:
+        std::copy_n(sums, channels, out);
+        return;
+    case GLIMMER_RULE_MEAN: {
+        if (!sums)
+            return write(estimate_pixel(at_one_a_wave(pixel, n), n).mean);
+        const float waves = covered(pixel, n), inverse = waves > 0 ? 1.0f / waves : 0.0f;
+        for (size_t c = 0; c < channels; ++c)
+            out[c] = sums[c] * inverse;
+    }
     }
 }
 
@@ -231,8 +199,8 @@ void Film::save(std::vector<uint8_t> &out) const {
     for (const auto &s : sums_)
         append(out, s.data(), s.size());
     append(out, hits_.data(), hits_.size());
-    append(out, plan_.data(), plan_.size());
-    const uint64_t planned = planned_;
+    append(out, allocation_.data(), allocation_.size());
+    const uint64_t planned = allocated_;
     append(out, &planned, 1);
 }
 
@@ -252,10 +220,10 @@ void Film::load(const uint8_t *&data, const uint8_t *end) {
     for (auto &s : sums_)
         take(data, end, s.data(), s.size());
     take(data, end, hits_.data(), hits_.size());
-    take(data, end, plan_.data(), plan_.size());
+    take(data, end, allocation_.data(), allocation_.size());
     uint64_t planned;
     take(data, end, &planned, 1);
-    planned_ = planned != 0;
+    allocated_ = planned != 0;
 }
 
 Film::Tile::Tile(Film &film, size_t index) : film_(film), index_(index), area_(film.tiles_[index]) {
@@ -286,33 +254,38 @@ void Film::Tile::copy(bool put_back) {
     rows(film_.hits_, hits_, 1);
 }
 
-SampleRange Film::Tile::samples_of_pass(uint32_t x, uint32_t y, uint64_t pass) const {
-    return film_.samples_of_pass(size_t(area_.y + y) * film_.width_ + area_.x + x, pass);
+SampleRange Film::Tile::samples_of_wave(uint32_t x, uint32_t y, uint64_t wave) const {
+    return film_.samples_of_wave(size_t(area_.y + y) * film_.width_ + area_.x + x, wave);
 }
 
-void Film::Tile::add(uint32_t x, uint32_t y, uint64_t pass, const FilmSample &value) {
+void Film::Tile::add(uint32_t x, uint32_t y, uint64_t wave, const FilmSample &sample) {
     const size_t pixel = size_t(y) * area_.width + x;
-    const auto r = uint32_t(pass % kReplicates);
-    // The radiance is divided by what was taken in the end; all else, which is kept in one sum, by the passes that the
-    // samples stand for.
-    const bool by_plan = film_.planned_ && pass >= kPlanPasses;
-    const float weight = by_plan ? film_.plan_[size_t(area_.y + y) * film_.width_ + area_.x + x].cover(r) : 1.0f;
-    radiance_[pixel][r] += value.radiance();
-    add_rgb(sums_[GLIMMER_PASS_ALBEDO], pixel, value.albedo, weight);
-    add_rgb(sums_[GLIMMER_PASS_NORMAL], pixel, {value.normal.x, value.normal.y, value.normal.z}, weight);
-    add_rgb(sums_[GLIMMER_PASS_EMISSION], pixel, value.emission, weight);
-    add_rgb(sums_[GLIMMER_PASS_DIRECT], pixel, value.direct, weight);
-    add_rgb(sums_[GLIMMER_PASS_INDIRECT], pixel, value.indirect, weight);
-    add_rgb(sums_[GLIMMER_PASS_FOG], pixel, value.medium, weight);
-    if (value.hit && !hits_.empty()) {
-        sums_[GLIMMER_PASS_DEPTH][pixel] += value.depth * weight;
+    const auto r = uint32_t(wave % kReplicates);
+    // The radiance is divided by the samples that were taken in the end. All else is kept in one sum and divided by the
+    // waves that its samples stand for.
+    const bool by_allocation = film_.allocated_ && wave >= kUniformWaves;
+    const float weight =
+        by_allocation ? film_.allocation_[size_t(area_.y + y) * film_.width_ + area_.x + x].waves_a_sample(r) : 1.0f;
+    radiance_[pixel][r] += sample.radiance();
+    for (uint32_t p = 0; p < GLIMMER_PASS_COUNT; ++p)
+        if (!sums_[p].empty())
+            add_to_pass(glimmer_pass(p), pixel, wave, sample, weight);
+    if (sample.hit && !hits_.empty())
         hits_[pixel] += weight;
-    }
-    if (pass == 0) {
-        if (!sums_[GLIMMER_PASS_OBJECT_INDEX].empty())
-            sums_[GLIMMER_PASS_OBJECT_INDEX][pixel] = float(value.object_index);
-        if (!sums_[GLIMMER_PASS_MATERIAL_INDEX].empty())
-            sums_[GLIMMER_PASS_MATERIAL_INDEX][pixel] = float(value.material_index);
+}
+
+void Film::Tile::add_to_pass(glimmer_pass pass, size_t pixel, uint64_t wave, const FilmSample &sample, float weight) {
+    const glimmer_pass_rule rule = kPasses[size_t(pass)].info.rule;
+    const size_t channels = pass_channels(pass);
+    float *sums = sums_[size_t(pass)].data() + pixel * channels;
+    std::array<float, detail::kMaxPassChannels> value;
+    kPasses[size_t(pass)].value(sample, value.data());
+    if (rule == GLIMMER_RULE_FIRST) {
+        if (wave == 0)
+            std::copy_n(value.data(), channels, sums);
+    } else if (rule == GLIMMER_RULE_MEAN || sample.hit) {
+        for (size_t c = 0; c < channels; ++c)
+            sums[c] += value[c] * weight;
     }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one table of passes: what --list-aovs prints, what the film keeps and what the add-on registers.
+// The one table of passes (AOVs): what --list-aovs prints, what the film keeps of a sample and how, how pictures are
+// merged, and what the add-on registers. A new pass is a row here and a field of FilmSample.
 #pragma once
 
+#include "film/sample.h"
 #include "glimmer.h"
 
 #include <array>
@@ -9,23 +11,65 @@
 
 namespace glimmer {
 
-inline constexpr std::array<glimmer_pass_info_t, GLIMMER_PASS_COUNT> kPasses{{
-    {"combined", "RGB", "radiance"},
-    {"stderr", "RGB", "standard error of the combined mean"},
-    {"albedo", "RGB", "albedo of the first surface that is not a mirror or glass"},
-    {"normal", "XYZ", "world shading normal of the first surface"},
-    {"depth", "Z", "distance along the camera's axis to the first surface, 1e10 where there is none"},
-    {"emission", "RGB", "light seen directly, also through mirrors and glass"},
-    {"direct", "RGB", "light scattered once, by a surface"},
-    {"indirect", "RGB", "light scattered more than once, first by a surface as seen from the camera"},
-    {"fog", "RGB", "light that the fog scattered to the camera"},
-    {"object_index", "X", "index of the object at the pixel's first sample, 0 if none"},
-    {"material_index", "X", "1 + the material at the pixel's first sample, 0 if none"},
-    {"sample_count", "X", "samples of the pixel"},
+struct Pass {
+    glimmer_pass_info_t info;
+    /// Writes what a sample adds to the sums of the pass, a value a channel. Null where the film makes the pass from
+    /// its replicates of the radiance.
+    void (*value)(const FilmSample &sample, float *channels) = nullptr;
+};
+
+namespace detail {
+
+inline constexpr size_t kMaxPassChannels = 3;
+
+template <auto Member>
+void pass_value(const FilmSample &sample, float *channels) {
+    const auto &v = sample.*Member;
+    using Value = std::remove_cvref_t<decltype(v)>;
+    if constexpr (std::is_same_v<Value, Rgb>)
+        channels[0] = v.r, channels[1] = v.g, channels[2] = v.b;
+    else if constexpr (std::is_same_v<Value, Vec3f>)
+        channels[0] = v.x, channels[1] = v.y, channels[2] = v.z;
+    else
+        channels[0] = float(v);
+}
+
+} // namespace detail
+
+/// By glimmer_pass.
+inline constexpr std::array<Pass, GLIMMER_PASS_COUNT> kPasses{{
+    {{"combined", "RGB", "radiance", GLIMMER_RULE_MEAN}},
+    {{"stderr", "RGB", "standard error of the combined mean", GLIMMER_RULE_STANDARD_ERROR}},
+    {{"albedo", "RGB", "albedo of the first surface that is not a mirror or glass", GLIMMER_RULE_MEAN},
+     detail::pass_value<&FilmSample::albedo>},
+    {{"normal", "XYZ", "world shading normal of the first surface", GLIMMER_RULE_MEAN},
+     detail::pass_value<&FilmSample::normal>},
+    {{"depth", "Z", "distance along the camera's axis to the first surface, 1e10 where there is none",
+      GLIMMER_RULE_MEAN_OF_HITS},
+     detail::pass_value<&FilmSample::depth>},
+    {{"emission", "RGB", "light seen directly, also through mirrors and glass", GLIMMER_RULE_MEAN},
+     detail::pass_value<&FilmSample::emission>},
+    {{"direct", "RGB", "light scattered once, by a surface", GLIMMER_RULE_MEAN},
+     detail::pass_value<&FilmSample::direct>},
+    {{"indirect", "RGB", "light scattered more than once, first by a surface as seen from the camera",
+      GLIMMER_RULE_MEAN},
+     detail::pass_value<&FilmSample::indirect>},
+    {{"fog", "RGB", "light that the fog scattered to the camera", GLIMMER_RULE_MEAN},
+     detail::pass_value<&FilmSample::medium>},
+    {{"object_index", "X", "index of the object at the pixel's first sample, 0 if none", GLIMMER_RULE_FIRST},
+     detail::pass_value<&FilmSample::object_index>},
+    {{"material_index", "X", "1 + the material at the pixel's first sample, 0 if none", GLIMMER_RULE_FIRST},
+     detail::pass_value<&FilmSample::material_index>},
+    {{"sample_count", "X", "samples of the pixel", GLIMMER_RULE_COUNT}},
 }};
 
 inline size_t pass_channels(glimmer_pass pass) {
-    return std::strlen(kPasses[size_t(pass)].channels);
+    return std::strlen(kPasses[size_t(pass)].info.channels);
+}
+
+/// Whether every film has the pass, asked for or not.
+inline bool is_always_there(glimmer_pass pass) {
+    return !kPasses[size_t(pass)].value;
 }
 
 } // namespace glimmer

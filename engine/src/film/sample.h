@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one camera sample brings home.
+// The result of one camera sample.
 #pragma once
 
 #include "math/vec.h"
@@ -9,12 +9,14 @@
 namespace glimmer {
 
 struct FilmSample {
-    Rgb emission, direct, indirect, medium; ///< radiance by the way it came; their sum is the sample's radiance
+    /// Radiance by the way it came to the camera (see film/passes.h); their sum is the radiance of the sample.
+    Rgb emission, direct, indirect, medium;
     Rgb albedo;
     Vec3f normal;
-    float depth = 0; ///< along the axis; only where hit
+    float depth = 0; ///< along the camera's axis; known only where `hit`
     bool hit = false;
-    bool unfinished = false; ///< broken off by the guard against paths without end: what is missing is a bias
+    /// A guard against endless paths broke the sample off: what is missing is a bias.
+    bool unfinished = false;
     uint32_t object_index = 0, material_index = 0;
 
     Rgb radiance() const { return emission + direct + indirect + medium; }

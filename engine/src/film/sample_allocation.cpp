@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film/sample_allocation.h"
 
-#include "film/film.h"
+#include "film/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,44 +10,46 @@ namespace glimmer {
 
 namespace {
 
-constexpr uint32_t kReach = 2; // pixels that speak for their neighbours: 5 x 5 know the variance where one pixel cannot
+/// Scores are averaged over neighbours up to so many pixels away, since the variance of a single pixel from three
+/// replicates is too uncertain. Chosen.
+constexpr uint32_t kBlurRadius = 2;
 
-/// What the planners of one replicate say of one pixel: variance of a replicate over mu^2 + eps, summed over channels.
-double score(const Replicates &sums, uint32_t planned, double epsilon) {
-    constexpr double passes = double(kPlanPasses) / kReplicates;
+/// The variance of a replicate over mu^2 + eps, summed over channels, as those that allocate `allocated` estimate it.
+double score(const Replicates &sums, uint32_t allocated, double epsilon) {
+    constexpr double waves = double(kUniformWaves) / kReplicates;
     double result = 0;
     for (int c = 0; c < 3; ++c) {
-        std::array<double, kPlanners> means{};
+        std::array<double, kAllocators> means{};
         double mean = 0, spread = 0;
-        for (uint32_t d = 0; d < kPlanners; ++d) {
-            means[d] = double(sums[(planned + 1 + d) % kReplicates][c]) / passes;
-            mean += means[d] / kPlanners;
+        for (uint32_t d = 0; d < kAllocators; ++d) {
+            means[d] = double(sums[(allocated + 1 + d) % kReplicates][c]) / waves;
+            mean += means[d] / kAllocators;
         }
         for (const double m : means)
             spread += (m - mean) * (m - mean);
-        // As in film/error.h, the noise of mu is taken out of 1/mu^2: 3 times its variance, spread/2 over kPlanners.
-        const double variance = spread / (kPlanners - 1);
-        const double scale = mean * mean + 3 * variance / kPlanners + epsilon;
+        // As in film/error.h, the noise of mu is taken out of 1/mu^2: 3 times its variance, spread/2 over kAllocators.
+        const double variance = spread / (kAllocators - 1);
+        const double scale = mean * mean + 3 * variance / kAllocators + epsilon;
         result += scale > 0 ? variance / scale : 0;
     }
     return std::isfinite(result) ? result : 0; // sums that left the range of float
 }
 
-double mean_of_planners(const Film &film, uint32_t planned) {
+double mean_of_allocators(const Film &film, uint32_t allocated) {
     double sum = 0;
     for (uint32_t y = 0; y < film.height(); ++y)
         for (uint32_t x = 0; x < film.width(); ++x) {
             const Replicates sums = film.replicates(x, y);
-            for (uint32_t d = 0; d < kPlanners; ++d) {
-                const Rgb &s = sums[(planned + 1 + d) % kReplicates];
+            for (uint32_t d = 0; d < kAllocators; ++d) {
+                const Rgb &s = sums[(allocated + 1 + d) % kReplicates];
                 sum += double(s.r) + double(s.g) + double(s.b);
             }
         }
-    const double passes = double(kPlanPasses) / kReplicates;
-    return sum / (3 * kPlanners * passes * double(film.width()) * double(film.height()));
+    const double waves = double(kUniformWaves) / kReplicates;
+    return sum / (3 * kAllocators * waves * double(film.width()) * double(film.height()));
 }
 
-/// Means over the neighbours within kReach, of those that there are, along one axis: `count` lines of `length`.
+/// Means over the neighbours within kBlurRadius, of those that there are, along one axis: `count` lines of `length`.
 void blur(std::vector<float> &values, size_t count, size_t length, size_t line_step, size_t step) {
     std::vector<float> line(length);
     for (size_t i = 0; i < count; ++i) {
@@ -55,7 +57,7 @@ void blur(std::vector<float> &values, size_t count, size_t length, size_t line_s
         for (size_t j = 0; j < length; ++j)
             line[j] = at[j * step];
         for (size_t j = 0; j < length; ++j) {
-            const size_t first = j > kReach ? j - kReach : 0, end = std::min(j + kReach + 1, length);
+            const size_t first = j > kBlurRadius ? j - kBlurRadius : 0, end = std::min(j + kBlurRadius + 1, length);
             float sum = 0;
             for (size_t k = first; k < end; ++k)
                 sum += line[k];
@@ -91,14 +93,14 @@ double scale_to_mean_one(const std::vector<float> &wanted) {
 
 } // namespace
 
-std::vector<PixelPlan> plan_samples(const Film &film, const std::atomic<bool> &stop) {
+std::vector<PixelAllocation> allocate_samples(const Film &film, const std::atomic<bool> &stop) {
     const size_t width = film.width(), height = film.height();
-    std::vector<PixelPlan> plan(width * height);
+    std::vector<PixelAllocation> allocation(width * height);
     std::vector<float> wanted(width * height);
     for (uint32_t r = 0; r < kReplicates; ++r) {
         if (stop.load(std::memory_order_relaxed))
             return {};
-        const double mean = mean_of_planners(film, r), epsilon = 1e-4 * mean * mean;
+        const double mean = mean_of_allocators(film, r), epsilon = relmse_epsilon(mean);
         for (uint32_t y = 0; y < film.height(); ++y)
             for (uint32_t x = 0; x < film.width(); ++x)
                 wanted[size_t(y) * width + x] = float(score(film.replicates(x, y), r, epsilon));
@@ -109,9 +111,9 @@ std::vector<PixelPlan> plan_samples(const Film &film, const std::atomic<bool> &s
         const double scale = scale_to_mean_one(wanted);
         for (size_t i = 0; i < wanted.size(); ++i)
             if (scale > 0)
-                plan[i].rates[r] = uint16_t(std::lround(rate_of(wanted[i], scale) * PixelPlan::kUnit));
+                allocation[i].rates[r] = uint16_t(std::lround(rate_of(wanted[i], scale) * PixelAllocation::kUnit));
     }
-    return plan;
+    return allocation;
 }
 
 } // namespace glimmer

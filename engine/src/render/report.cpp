@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report of a render as JSON.
-#include "render/session.h"
+#include "render/report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace glimmer {
 
@@ -38,75 +38,113 @@ std::string list(const std::vector<std::string> &items) {
     return "[" + out + "]";
 }
 
+std::string object(std::initializer_list<std::pair<const char *, std::string>> members) {
+    std::string out;
+    for (const auto &[key, value] : members)
+        out += (out.empty() ? "" : ", ") + quoted(key) + ": " + value;
+    return "{" + out + "}";
+}
+
+std::string text(bool value) {
+    return value ? "true" : "false";
+}
+
+std::string seconds_left(double seconds) {
+    return seconds < 0 ? "null" : number(seconds);
+}
+
+/// Every setting and every fault that biases the picture.
+std::vector<std::string> biased_by(const RenderSettings &settings, const SampleFaults &faults) {
+    constexpr auto no_limit = std::numeric_limits<uint32_t>::max();
+    std::vector<std::string> lines;
+    if (settings.limits.depth != no_limit)
+        lines.push_back("max_depth " + std::to_string(settings.limits.depth));
+    if (settings.limits.scatter != no_limit)
+        lines.push_back("max_scatter " + std::to_string(settings.limits.scatter));
+    if (faults.invalid)
+        lines.push_back(std::to_string(faults.invalid) + " invalid samples counted as black");
+    if (faults.unfinished)
+        lines.push_back(std::to_string(faults.unfinished) + " samples broken off on paths without end");
+    return lines;
+}
+
+std::string curve_points(const std::vector<CurvePoint> &points) {
+    std::string out;
+    for (const CurvePoint &c : points)
+        out += (out.empty() ? "[" : ", [") + number(c.seconds) + ", " + number(c.cpu_seconds) + ", " +
+               std::to_string(c.samples) + ", " + number(c.error.relmse) + ", " + number(c.error.low) + ", " +
+               number(c.error.high) + "]";
+    return "[" + out + "]";
+}
+
+std::string error_with_tails(const ErrorEstimate &error) {
+    if (!std::isfinite(error.relmse))
+        return "null";
+    std::string tails = "null";
+    if (error.has_interval())
+        tails = object({{"certifiable", text(error.certifiable())},
+                        {"largest_share", number(error.largest_share)},
+                        {"allowed", number(kLargestShareAllowed)},
+                        {"x", std::to_string(error.x)},
+                        {"y", std::to_string(error.y)}});
+    return object({{"relmse", number(error.relmse)},
+                   {"low", number(error.low)},
+                   {"high", number(error.high)},
+                   {"confidence", number(kErrorConfidence)},
+                   {"tails", tails}});
+}
+
+std::string fall_rate(const FallRate &rate) {
+    if (!std::isfinite(rate.power))
+        return "null";
+    return object({{"power", number(rate.power)},
+                   {"low", number(rate.low)},
+                   {"high", number(rate.high)},
+                   {"confidence", number(kErrorConfidence)}});
+}
+
+std::string invalid_samples(const SampleFaults &faults) {
+    std::string first = "null";
+    if (faults.first)
+        first = object({{"x", std::to_string(faults.first->x)},
+                        {"y", std::to_string(faults.first->y)},
+                        {"sample", std::to_string(faults.first->sample)}});
+    return object({{"count", std::to_string(faults.invalid)}, {"first", first}});
+}
+
 } // namespace
 
-std::string Session::report_json() {
-    const glimmer_progress p = progress();
-    // Of a large picture this takes a while: workers must not wait for it.
+std::string report_json(const ReportInput &in) {
     std::string adaptive = "null";
-    if (film_.adaptive()) {
-        const auto [fewest, most] = film_.samples_taken();
-        adaptive = "{\"fewest\": " + std::to_string(fewest) + ", \"most\": " + std::to_string(most) + "}";
-    }
-    const std::lock_guard lock(mutex_);
-    constexpr auto no_limit = std::numeric_limits<uint32_t>::max();
-    std::vector<std::string> biased;
-    if (settings_.limits.depth != no_limit)
-        biased.push_back("max_depth " + std::to_string(settings_.limits.depth));
-    if (settings_.limits.scatter != no_limit)
-        biased.push_back("max_scatter " + std::to_string(settings_.limits.scatter));
-    if (invalid_count_)
-        biased.push_back(std::to_string(invalid_count_) + " invalid samples counted as black");
-    if (unfinished_count_)
-        biased.push_back(std::to_string(unfinished_count_) + " samples broken off on paths without end");
-    std::string curve;
-    for (const CurvePoint &c : curve_)
-        curve += (curve.empty() ? "[" : ", [") + number(c.seconds) + ", " + number(c.cpu_seconds) + ", " +
-                 std::to_string(c.samples) + ", " + number(c.error.relmse) + ", " + number(c.error.low) + ", " +
-                 number(c.error.high) + "]";
-    std::string first = "null";
-    if (!invalid_.empty())
-        first = "{\"x\": " + std::to_string(invalid_[0].x) + ", \"y\": " + std::to_string(invalid_[0].y) +
-                ", \"sample\": " + std::to_string(invalid_[0].sample) + "}";
-    std::string tails = "null";
-    if (error_.has_interval())
-        tails = std::string("{\"certifiable\": ") + (error_.certifiable() ? "true" : "false") +
-                ", \"largest_share\": " + number(error_.largest_share) +
-                ", \"allowed\": " + number(kLargestShareAllowed) + ", \"x\": " + std::to_string(error_.x) +
-                ", \"y\": " + std::to_string(error_.y) + "}";
-    std::string error = "null";
-    if (std::isfinite(error_.relmse))
-        error = "{\"relmse\": " + number(error_.relmse) + ", \"low\": " + number(error_.low) +
-                ", \"high\": " + number(error_.high) + ", \"confidence\": " + number(kErrorConfidence) +
-                ", \"tails\": " + tails + "}";
-    std::string rate = "null";
-    if (std::isfinite(rate_.power))
-        rate = "{\"power\": " + number(rate_.power) + ", \"low\": " + number(rate_.low) +
-               ", \"high\": " + number(rate_.high) + ", \"confidence\": " + number(kErrorConfidence) + "}";
-    const auto seconds_left = [](double seconds) { return seconds < 0 ? "null" : number(seconds); };
-    std::string out = "{\"engine\": " + quoted(GLIMMER_VERSION);
-    out += ", \"integrator\": " + quoted(kIntegrators[settings_.integrator].name);
-    out += ", \"spp\": " + std::to_string(p.samples);
-    out += ", \"adaptive\": " + adaptive;
-    out += ", \"seed\": " + std::to_string(settings_.seed);
-    out += ", \"threads\": " + std::to_string(settings_.threads);
-    out += ", \"seconds\": {\"load\": 0, \"build\": " + number(scene_->build_seconds) +
-           ", \"render\": " + number(p.seconds) + ", \"cpu\": " + number(p.cpu_seconds) + "}";
-    out += ", \"rays\": " + std::to_string(p.rays);
-    out += ", \"peak_bytes\": " + std::to_string(p.peak_bytes);
-    out += ", \"invalid_samples\": {\"count\": " + std::to_string(invalid_count_) + ", \"first\": " + first + "}";
-    out += ", \"error\": " + error;
-    out += ", \"curve\": [" + curve + "]";
-    out += ", \"rate\": " + rate;
-    out += ", \"seconds_to_half\": " + seconds_left(p.seconds_to_half);
-    out += ", \"seconds_to_target\": " + seconds_left(p.seconds_to_target);
-    out += ", \"biased_by\": " + list(biased);
-    out += ", \"kernel\": " + quoted(integrator_->kernel());
-    std::vector<std::string> left_out = integrator_->left_out();
-    left_out.insert(left_out.end(), scene_->left_out.begin(), scene_->left_out.end());
-    out += ", \"left_out\": " + list(left_out);
-    out += ", \"warnings\": " + list(scene_->warnings);
-    return out + "}";
+    if (in.samples_taken)
+        adaptive = object(
+            {{"fewest", std::to_string((*in.samples_taken)[0])}, {"most", std::to_string((*in.samples_taken)[1])}});
+    std::vector<std::string> left_out = in.integrator.left_out();
+    left_out.insert(left_out.end(), in.scene.left_out.begin(), in.scene.left_out.end());
+    return object({
+        {"engine", quoted(GLIMMER_VERSION)},
+        {"integrator", quoted(kIntegrators[in.settings.integrator].name)},
+        {"spp", std::to_string(in.progress.samples)},
+        {"adaptive", adaptive},
+        {"seed", std::to_string(in.settings.seed)},
+        {"threads", std::to_string(in.settings.threads)},
+        {"seconds", object({{"load", "0"},
+                            {"build", number(in.scene.build_seconds)},
+                            {"render", number(in.progress.seconds)},
+                            {"cpu", number(in.progress.cpu_seconds)}})},
+        {"rays", std::to_string(in.progress.rays)},
+        {"peak_bytes", std::to_string(in.progress.peak_bytes)},
+        {"invalid_samples", invalid_samples(in.faults)},
+        {"error", error_with_tails(in.curve.error())},
+        {"curve", curve_points(in.curve.points())},
+        {"rate", fall_rate(in.curve.rate())},
+        {"seconds_to_half", seconds_left(in.progress.seconds_to_half)},
+        {"seconds_to_target", seconds_left(in.progress.seconds_to_target)},
+        {"biased_by", list(biased_by(in.settings, in.faults))},
+        {"kernel", quoted(in.integrator.kernel())},
+        {"left_out", list(left_out)},
+        {"warnings", list(in.scene.warnings)},
+    });
 }
 
 } // namespace glimmer

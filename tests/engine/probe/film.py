@@ -52,12 +52,12 @@ def fall_rate(
     return float(result[0]), float(result[1]), float(result[2])
 
 
-def sample_plan(sums: ArrayLike) -> Array:
+def sample_allocation(sums: ArrayLike) -> Array:
     """(height, width, 8) samples a pass that adaptive sampling plans for replicates whose sums (height, width, 8, 3)
     are these after two passes of each."""
     values = f32(sums)
     height, width, replicates, channels = values.shape
     assert (replicates, channels) == (8, 3)
     rates = np.empty((height, width, 8), np.float32)
-    call("probe_plan", values, width, height, rates)
+    call("probe_allocation", values, width, height, rates)
     return rates

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Renders waves of a tile.
+#pragma once
+
+#include "film/film.h"
+#include "integrator/integrator.h"
+#include "render/sample_faults.h"
+#include "render/schedule.h"
+#include "scene/scene.h"
+
+#include <atomic>
+#include <optional>
+
+namespace glimmer {
+
+class TileRenderer {
+  public:
+    /// stop: once set, tiles are broken off.
+    TileRenderer(const Scene &scene, const Integrator &integrator, const Schedule &schedule, uint64_t seed,
+                 const std::atomic<bool> &stop)
+        : scene_(scene), integrator_(integrator), schedule_(schedule), seed_(seed), stop_(stop) {}
+
+    /// Adds the waves from `first` to the end of the schedule's batch to a tile of the film. Nothing where it was
+    /// broken off, at `deadline` (steady_seconds()) or by `stop`; the tile is then as it was.
+    std::optional<SampleFaults> render(Film &film, size_t tile, uint64_t first, double deadline,
+                                       TraceContext &trace) const;
+
+  private:
+    struct Work;
+    bool render_block(Work &work, const Rectangle &block, uint64_t wave) const;
+    bool render_pixel(Work &work, uint32_t x, uint32_t y, const Rectangle &block, uint64_t wave,
+                      std::unique_ptr<const BlockData> &shared) const;
+
+    const Scene &scene_;
+    const Integrator &integrator_;
+    const Schedule &schedule_;
+    uint64_t seed_;
+    const std::atomic<bool> &stop_;
+};
+
+} // namespace glimmer
