@@ -44,9 +44,8 @@ void SceneBuilder::use(uint32_t index) {
     const Material &material = scene_.materials[index];
     used_[index] = true;
     scene_.has_dielectrics |= material.kind == MaterialKind::glass;
-    scene_.has_surfaces |= material.kind == MaterialKind::glass || material.lobe_count > 0;
-    scene_.max_value =
-        std::max(scene_.max_value, material.kind == MaterialKind::glass ? kInfinity : max_value(scene_.bsdf(material)));
+    scene_.has_surfaces |= material.bounds.scatters;
+    scene_.max_value = std::max(scene_.max_value, material.bounds.max_value);
 }
 
 void SceneBuilder::build_geometry() {
@@ -123,6 +122,7 @@ Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
         at.material = sphere_materials[hit.primitive];
         at.object_index = sphere_indices[hit.primitive];
         at.body = uint32_t(accel->instances().size()) + hit.primitive;
+        at.primitive = hit.primitive;
         return at;
     }
     const Instance &instance = accel->instances()[hit.instance];
@@ -152,7 +152,10 @@ Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
     at.error = kRoundingUnits * (max_abs(at.position) + stretch * local + max_abs(instance.translation));
     at.material = object_materials[instance.object][mesh.slot(hit.primitive)];
     at.object_index = instance.object_index;
-    at.body = hit.instance;
+    at.body = at.instance = hit.instance;
+    at.primitive = hit.primitive;
+    at.u = hit.u;
+    at.v = hit.v;
     return at;
 }
 

@@ -44,7 +44,7 @@ Vec3d in_float64(const Instance &instance, const Vec3f &point) {
 void SceneBuilder::add_sphere_lights(std::vector<Light> &lights) const {
     const std::vector<Sphere> &spheres = scene_.accel->spheres();
     for (uint32_t i = 0; i < spheres.size(); ++i) {
-        const Rgb &emission = scene_.materials[scene_.sphere_materials[i]].emission;
+        const Rgb &emission = scene_.materials.bounds(scene_.sphere_materials[i]).emission;
         if (!is_black(emission))
             lights.push_back(SphereLight{spheres[i], emission, i});
     }
@@ -60,11 +60,11 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
         const Instance &instance = instances[i];
         const std::vector<uint32_t> &materials = scene_.object_materials[instance.object];
         const auto emission = [&](uint32_t t) -> const Rgb & {
-            return scene_.materials[materials[instance.mesh->slot(t)]].emission;
+            return scene_.materials.bounds(materials[instance.mesh->slot(t)]).emission;
         };
         bool shines = false;
         for (uint32_t m : materials)
-            shines |= !is_black(scene_.materials[m].emission);
+            shines |= !is_black(scene_.materials.bounds(m).emission);
         if (!shines)
             continue;
         light.first_of_instance[i] = uint32_t(light.triangle_of.size());

@@ -49,7 +49,7 @@ void SceneBuilder::build_materials() {
         const MaterialDescription &m = description_.materials[i];
         Material out;
         out.name = m.label;
-        out.lobe_begin = uint32_t(scene_.lobes.size());
+        std::vector<WeightedLobe> lobes;
         switch (m.type) {
         case GLIMMER_GLASS:
             out.kind = MaterialKind::glass;
@@ -63,15 +63,11 @@ void SceneBuilder::build_materials() {
         case GLIMMER_NULL:
             out.kind = MaterialKind::null;
             break;
-        default: {
-            std::vector<WeightedLobe> lobes;
+        default:
             flatten(i, 1, lobes, out.emission);
             set_probabilities(lobes);
-            out.lobe_count = uint32_t(lobes.size());
-            scene_.lobes.insert(scene_.lobes.end(), lobes.begin(), lobes.end());
         }
-        }
-        scene_.materials.push_back(std::move(out));
+        scene_.materials.add(std::move(out), lobes);
     }
     used_.assign(scene_.materials.size(), false);
 }

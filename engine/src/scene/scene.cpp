@@ -89,7 +89,7 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
             "lights of a place and size, or leave out the fog");
     if (lights.size() == 0)
         warnings.push_back("nothing in the scene shines: the picture will be black");
-    bytes = lobes.size() * sizeof(WeightedLobe) + accel->bytes();
+    bytes = materials.bytes() + accel->bytes();
     for (const auto &mesh : std::set(meshes_.begin(), meshes_.end())) // objects may share one
         bytes += mesh->bytes();
     build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -2,13 +2,12 @@
 // A committed scene: everything a ray can ask, in float32 about an origin at the camera. Never changes.
 #pragma once
 
-#include "bsdf/bsdf.h"
 #include "camera/camera.h"
 #include "geometry/accel.h"
 #include "light/light_set.h"
 #include "medium/homogeneous_medium.h"
 #include "scene/description.h"
-#include "scene/material.h"
+#include "shading/materials.h"
 
 #include <memory>
 #include <optional>
@@ -16,23 +15,6 @@
 #include <vector>
 
 namespace glimmer {
-
-/// The surface that a ray met, as far as scattering needs it.
-struct Interaction {
-    Vec3f position;
-    Vec3f geometric_normal; ///< unit, outward as the mesh or sphere has it
-    Vec3f shading_normal;   ///< unit, on the same side
-    float error;            ///< bound on the rounding error of the position, in lengths
-    uint32_t material;      ///< of Scene::materials
-    uint32_t object_index;
-    uint32_t body; ///< the instance, or instances + sphere: which closed surface this is
-
-    /// Where a ray that leaves to `direction` starts: off the surface, on its side, by the rounding error of the hit
-    /// (Waechter and Binder, Ray Tracing Gems ch. 6, with the bound taken from the coordinates rather than a constant).
-    Vec3f origin_towards(const Vec3f &direction) const {
-        return position + geometric_normal * std::copysign(error, dot(direction, geometric_normal));
-    }
-};
 
 struct FilmSettings {
     uint32_t width = 1, height = 1;
@@ -49,21 +31,19 @@ class Scene {
     Scene &operator=(const Scene &) = delete;
 
     Interaction interaction(const Ray &ray, const Hit &hit) const;
-    Bsdf bsdf(const Material &material) const { return Bsdf(lobes.data() + material.lobe_begin, material.lobe_count); }
 
     Camera camera;
     FilmSettings film;
-    std::vector<Material> materials;
-    std::vector<WeightedLobe> lobes;
+    Materials materials;
     std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot
     std::vector<uint32_t> sphere_materials, sphere_indices;
     std::optional<HomogeneousMedium> medium;
     std::unique_ptr<Accel> accel;
     LightSet lights;
     bool has_dielectrics = false, has_surfaces = false; ///< anything that scatters light
-    float max_value = 0;     ///< largest of the materials in use (see peak(Bsdf)); infinite with glass
-    Vec3f bounds_center;     ///< of all surfaces and finite lights
-    float bounds_radius = 0; ///< 0: there are none
+    float max_value = 0;                                ///< largest of the materials in use (see MaterialBounds)
+    Vec3f bounds_center;                                ///< of all surfaces and finite lights
+    float bounds_radius = 0;                            ///< 0: there are none
     std::vector<std::string> warnings, left_out;
     double build_seconds = 0;
     size_t bytes = 0; ///< of its large arrays and BVHs

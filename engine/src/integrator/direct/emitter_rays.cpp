@@ -40,6 +40,7 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler 
     const auto side = uint32_t(std::lround(std::sqrt(float(rays))));
     const auto strata = float(side);
     Rgb sum;
+    ClosureArena arena;
     for (uint32_t i = 0; i < side * side; ++i) {
         const Vec2f u = sampler.next_2d();
         const Vec2f u_pixel{(float(i % side) + u.x) / strata, (float(i / side) + u.y) / strata};
@@ -48,7 +49,9 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler 
         const auto hit = scene_.accel->intersect(ray);
         if (!hit || hit->instance != kNone)
             continue;
-        const Rgb &emission = scene_.materials[scene_.interaction(ray, *hit).material].emission;
+        Interaction surface = scene_.interaction(ray, *hit);
+        arena.clear();
+        const Rgb emission = scene_.materials.shade(surface, {-ray.direction}, arena).emission;
         sum += scene_.medium ? emission * scene_.medium->transmittance(hit->t) : emission;
     }
     return sum;

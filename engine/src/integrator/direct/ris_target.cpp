@@ -35,10 +35,8 @@ float towards(const WeightedLobe &l, const Vec3f &wo, const Vec3f &to, float sin
 
 } // namespace
 
-float ris_target(const Scene &scene, const Interaction &surface, const Vec3f &wo, float sigma) {
-    const Material &material = scene.materials[surface.material];
-    const Bsdf bsdf = scene.bsdf(material);
-    if (material.kind == MaterialKind::glass || is_specular(bsdf))
+float ris_target(const Scene &scene, const Interaction &surface, Bsdf bsdf, const Vec3f &wo, float sigma) {
+    if (is_specular(bsdf))
         return 0;
     const float side = std::copysign(1.0f, dot(wo, surface.geometric_normal));
     const Frame frame(surface.shading_normal * side);

@@ -11,6 +11,6 @@ namespace glimmer {
 /// middle; narrow ones the point of a sphere that is nearest to the mirrored ray, their peak lowered by what the
 /// light's width adds to theirs (Karis 2013, "Real Shading in Unreal Engine 4": representative points). Lights at
 /// infinity count as if they shone from all sides. 0 for glass and where nothing is rough.
-float ris_target(const Scene &scene, const Interaction &surface, const Vec3f &wo, float sigma);
+float ris_target(const Scene &scene, const Interaction &surface, Bsdf bsdf, const Vec3f &wo, float sigma);
 
 } // namespace glimmer

@@ -26,6 +26,12 @@ static_assert(kAllLights <= dimension_count(Dimension::segment_distance) &&
 static_assert(kManyLights <= kAllLights);
 static_assert(kRisCandidates <= dimension_count(Dimension::candidate_film));
 
+/// The closures of a segment's end, kept likewise.
+inline ClosureArena &thread_arena() {
+    thread_local ClosureArena arena;
+    return arena;
+}
+
 /// The branches of one sample, kept from sample to sample so that the path loop allocates nothing.
 template <class State>
 std::vector<State> &thread_stack() {
@@ -99,7 +105,8 @@ class PathSample {
 
     // -- Light met by chance
     // ---------------------------------------------------------------------------------------------
-    void add_emission(const State &state, const Hit &hit, const Interaction &surface, const HomogeneousMedium *medium);
+    void add_emission(const State &state, const Hit &hit, const Interaction &surface, const Rgb &emission,
+                      const HomogeneousMedium *medium);
     void add_lamps(const State &state, float end, const HomogeneousMedium *medium);
     void add_infinity(const State &state, const HomogeneousMedium *medium);
     void add_seen(const State &state, const Rgb &radiance, float distance, const HomogeneousMedium *medium);
@@ -165,7 +172,7 @@ class PathSample {
     // --------------------------------------------------------------------------------------------------------
     /// The light straight from lights on what the camera sees first, at one of several points of the pixel.
     void pixel_ris();
-    void light_surface(const State &state, const Interaction &surface);
+    void light_surface(const State &state, const Interaction &surface, const Shading &shading);
     /// A surface as it is seen along a ray. All materials but glass are two-sided: both normals turn to the viewer.
     struct OrientedSurface {
         Frame frame;     ///< about the normal that it is shaded with
@@ -173,6 +180,10 @@ class PathSample {
         Vec3f wo;        ///< to the viewer, in the frame
     };
     static std::optional<OrientedSurface> oriented(const Interaction &surface, const Vec3f &direction);
+    /// Its closures last until the next segment is followed.
+    Shading shade(Interaction &surface, const Ray &ray) {
+        return scene_.materials.shade(surface, {-ray.direction}, arena_);
+    }
     void note_first_surface(const Interaction &surface);
     /// What of a surface is left to scatter: held, where splats bring the rest; unheld, where light vertices have
     /// brought theirs (bounded_fraction.h).
@@ -180,12 +191,12 @@ class PathSample {
     static float fraction_of(Lobes lobes, float bounded) {
         return lobes == Lobes::all ? 1 : lobes == Lobes::bounded ? bounded : 1 - bounded;
     }
-    void scatter_at_surface(State &state, const Interaction &surface, Lobes lobes = Lobes::all);
+    void scatter_at_surface(State &state, const Interaction &surface, Bsdf bsdf, Lobes lobes = Lobes::all);
     /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
     /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
     Vec3f light_sampling_origin(const Interaction &surface, const Vec3f &geometric) const {
-        const bool shining_sphere =
-            surface.body >= scene_.accel->instances().size() && !is_black(scene_.materials[surface.material].emission);
+        const bool shining_sphere = surface.body >= scene_.accel->instances().size() &&
+                                    !is_black(scene_.materials.bounds(surface.material).emission);
         return shining_sphere ? surface.origin_towards(geometric) : surface.position;
     }
     /// The light of `branches` samples of the BSDF comes in beside it.
@@ -225,6 +236,7 @@ class PathSample {
     TraceContext &rays_;
     float sigma_ = 0; ///< smallest extinction of the channels
     FilmSample result_;
+    ClosureArena &arena_ = thread_arena();
     std::vector<State> &stack_ = thread_stack<State>(); ///< branches still to follow
 };
 

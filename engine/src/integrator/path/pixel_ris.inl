@@ -19,6 +19,7 @@ void PathSample<F>::pixel_ris() {
     struct Seen {
         Ray ray;
         Interaction surface;
+        Shading shading;
         Rgb beta;
         float expected;
     };
@@ -39,7 +40,8 @@ void PathSample<F>::pixel_ris() {
         point.beta = Rgb(1.0f / kRisCandidates);
         if (F.medium && scene_.medium)
             point.beta *= scene_.medium->transmittance(hit->t);
-        const float expected = ris_target(scene_, point.surface, -point.ray.direction, sigma_);
+        point.shading = shade(point.surface, point.ray);
+        const float expected = ris_target(scene_, point.surface, point.shading.bsdf, -point.ray.direction, sigma_);
         point.expected = max_component(point.beta) * expected;
         if (!(point.expected > 0) || !(point.expected < kInfinity)) // nothing rough, or black
             point.expected = 0;
@@ -59,7 +61,7 @@ void PathSample<F>::pixel_ris() {
         State state;
         state.ray = points[i].ray;
         state.beta = points[i].beta * (1 / probability);
-        light_surface(state, points[i].surface);
+        light_surface(state, points[i].surface, points[i].shading);
         return;
     }
 }

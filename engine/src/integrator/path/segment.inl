@@ -21,11 +21,15 @@ void PathSample<F>::follow(State &state) {
 
     add_lamps(state, end, medium);
     std::optional<Interaction> surface;
+    Shading shading;
     if (hit) {
         surface = scene_.interaction(state.ray, *hit);
+        if constexpr (F.surfaces)
+            arena_.clear();
+        shading = shade(*surface, state.ray);
         if (state.direct_view() && state.depth == 0)
             note_first_surface(*surface);
-        add_emission(state, *hit, *surface, medium);
+        add_emission(state, *hit, *surface, shading.emission, medium);
     } else {
         add_infinity(state, medium);
     }
@@ -55,7 +59,7 @@ void PathSample<F>::follow(State &state) {
     if (medium && state.direct_view()) // an absorber in front of everything dims the picture, not what is behind it
         state.rr_scale *= least_absorbed(*medium, end);
     if constexpr (F.surfaces)
-        scatter_at_surface(state, *surface);
+        scatter_at_surface(state, *surface, shading.bsdf);
 }
 
 template <KernelFeatures F>
@@ -75,9 +79,8 @@ bool PathSample<F>::may_meet_light(const Ray &ray) const {
 }
 
 template <KernelFeatures F>
-void PathSample<F>::add_emission(const State &state, const Hit &hit, const Interaction &surface,
+void PathSample<F>::add_emission(const State &state, const Hit &hit, const Interaction &surface, const Rgb &emission,
                                  const HomogeneousMedium *medium) {
-    const Rgb &emission = scene_.materials[surface.material].emission;
     if (is_black(emission))
         return;
     float weight = 1;

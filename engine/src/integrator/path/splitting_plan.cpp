@@ -25,10 +25,16 @@ double pixel_contrast(const Scene &scene) {
         return 0;
     Sampler sampler(kPilotStream, 0, 0, 0, 0);
     const FilmSettings &film = scene.film;
+    ClosureArena arena;
     const auto expected = [&](uint32_t x, uint32_t y) {
         const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
         const auto hit = scene.accel->intersect(ray);
-        return hit ? double(ris_target(scene, scene.interaction(ray, *hit), -ray.direction, 0)) : 0.0;
+        if (!hit)
+            return 0.0;
+        Interaction surface = scene.interaction(ray, *hit);
+        arena.clear();
+        const Shading shading = scene.materials.shade(surface, {-ray.direction}, arena);
+        return double(ris_target(scene, surface, shading.bsdf, -ray.direction, 0));
     };
     double variance = 0, square = 0;
     for (uint32_t i = 0; i < kPairs; ++i) {

@@ -40,7 +40,7 @@ auto PathSample<F>::oriented(const Interaction &surface, const Vec3f &direction)
 }
 
 template <KernelFeatures F>
-void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, Lobes lobes) {
+void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, Bsdf bsdf, Lobes lobes) {
     const Material &material = scene_.materials[surface.material];
     if constexpr (F.glass)
         if (material.kind == MaterialKind::glass) {
@@ -48,7 +48,6 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
                 cross_dielectric(state, surface, material);
             return;
         }
-    const Bsdf bsdf = scene_.bsdf(material);
     if (bsdf.empty() || (lobes == Lobes::remainder && is_bounded(max_value(bsdf))))
         return;
     const bool camera = state.depth == 0;
@@ -115,11 +114,10 @@ void PathSample<F>::leave_rough(State &state, const Interaction &surface, const 
 }
 
 template <KernelFeatures F>
-void PathSample<F>::light_surface(const State &state, const Interaction &surface) {
-    const Material &material = scene_.materials[surface.material];
-    const Bsdf bsdf = scene_.bsdf(material);
+void PathSample<F>::light_surface(const State &state, const Interaction &surface, const Shading &shading) {
+    const Bsdf bsdf = shading.bsdf;
     const auto surface_frame = oriented(surface, state.ray.direction);
-    if (material.kind == MaterialKind::glass || is_specular(bsdf) || !surface_frame)
+    if (is_specular(bsdf) || !surface_frame)
         return;
     sample_lights_at(state, surface, bsdf, *surface_frame, 1, Lobes::all);
     const auto s = sample(bsdf, surface_frame->wo, sampler_.stratified_1d(dimension(Dimension::candidate_lobe)),

@@ -85,10 +85,13 @@ void PathSample<F>::compensate(State &state, const HomogeneousMedium &medium) {
     } else if constexpr (F.surfaces) {
         if (!hit)
             return;
-        const Interaction surface = scene_.interaction(state.ray, *hit);
+        Interaction surface = scene_.interaction(state.ray, *hit);
         const bool within = hit->t <= surface_compensation_radius;
         if (within || !splatted)
-            scatter_at_surface(state, surface, !within ? Lobes::remainder : splatted ? Lobes::bounded : Lobes::all);
+            scatter_at_surface(state, surface, shade(surface, state.ray).bsdf,
+                               !within    ? Lobes::remainder
+                               : splatted ? Lobes::bounded
+                                          : Lobes::all);
     }
 }
 

@@ -144,7 +144,12 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
     surface_.reserve(count);
     for (uint32_t s = 0; s < settings_.subsets; ++s)
         for (uint32_t k = s; k < count; k += settings_.subsets)
-            surface_.push_back(picked[k]);
+            surface_.push_back({picked[k], shade(picked[k])});
+}
+
+Bsdf BlockVertices::shade(const SurfaceVertex &v) {
+    Interaction surface = scene_.interaction({v.position, -v.incoming}, {0, v.instance, v.primitive, v.u, v.v});
+    return scene_.materials.shade(surface, {v.incoming}, closures_).bsdf;
 }
 
 Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, TraceContext &rays) const {
@@ -172,15 +177,15 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
         parts = medium_sums.part;
     }
     const size_t surface_count = surface_.empty() ? 0 : settings_.surface_picks;
-    const SurfaceVertex *surface = surface_count ? &surface_[size_t(subset) * settings_.surface_picks] : nullptr;
+    const ShadedVertex *surface = surface_count ? &surface_[size_t(subset) * settings_.surface_picks] : nullptr;
     for (size_t k = 0; k < surface_count; ++k) {
-        const SurfaceVertex &v = surface[k];
+        const SurfaceVertex &v = surface[k].vertex;
         const Vec3f to_point = x - v.position;
         surface_parts[k] = 0;
         if (!(dot(to_point, v.geometric) > 0))
             continue;
         const float d2 = length_squared(to_point), d = std::sqrt(d2);
-        const Connection c = connect(v, scene_.bsdf(scene_.materials[v.material]), to_point / d);
+        const Connection c = connect(v, surface[k].bsdf, to_point / d);
         const float scale =
             c.bounded * phase.eval(seen, -to_point / d) / (d2 + surface_clamp_distance * surface_clamp_distance);
         surface_values[k] = c.factor * v.power * medium.transmittance(d) * scale;
@@ -196,7 +201,7 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
     ++rays.rays;
     for (size_t k = 0; k < surface_count; ++k) {
         if (surface_parts[k] > 0 && left < surface_parts[k]) {
-            const SurfaceVertex &v = surface[k];
+            const SurfaceVertex &v = surface[k].vertex;
             const Vec3f from = v.position + v.geometric * v.error, way = x - from;
             const float d = length(way);
             const bool hidden = d > 0 && scene_.accel->occluded({from, way / d, d});

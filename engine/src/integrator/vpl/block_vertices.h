@@ -23,13 +23,20 @@ class BlockVertices {
     Rgb gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, TraceContext &rays) const;
 
   private:
+    /// A vertex on a surface, shaded where it was picked, for all of its connections.
+    struct ShadedVertex {
+        SurfaceVertex vertex;
+        Bsdf bsdf;
+    };
     void pick_medium(const MediumVertices &vertices, const std::vector<Vec3f> &points, Sampler &sampler);
     void pick_surface(const std::vector<SurfaceVertex> &vertices, const std::vector<Vec3f> &points, Sampler &sampler);
+    Bsdf shade(const SurfaceVertex &v);
 
     const Scene &scene_;
     VplSettings settings_;
-    MediumVertices medium_;              ///< (subsets, medium_picks)
-    std::vector<SurfaceVertex> surface_; ///< (subsets, surface_picks)
+    MediumVertices medium_;             ///< (subsets, medium_picks)
+    std::vector<ShadedVertex> surface_; ///< (subsets, surface_picks)
+    ClosureArena closures_;             ///< of surface_
 };
 
 } // namespace glimmer

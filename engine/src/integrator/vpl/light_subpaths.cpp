@@ -119,11 +119,12 @@ class LightSubpath {
     }
 
     void scatter_at_surface(Branch &path, const Hit &hit) {
-        const Interaction surface = scene_.interaction(path.ray, hit);
+        Interaction surface = scene_.interaction(path.ray, hit);
         const Material &material = scene_.materials[surface.material];
         if (material.kind == MaterialKind::glass)
             return cross_dielectric(path, surface, material);
-        const Bsdf bsdf = scene_.bsdf(material);
+        arena_.clear();
+        const Bsdf bsdf = scene_.materials.shade(surface, {-path.ray.direction}, arena_).bsdf;
         const float weight = bsdf.empty() ? 0 : survive(path, surface.position);
         if (weight == 0)
             return;
@@ -136,7 +137,10 @@ class LightSubpath {
                         surface.error,
                         path.power,
                         mean_component(path.power * albedo(bsdf)),
-                        surface.material};
+                        surface.instance,
+                        surface.primitive,
+                        surface.u,
+                        surface.v};
         if (!(dot(incoming, v.geometric) > 0))
             return;
         if (!is_specular(bsdf))
@@ -274,6 +278,7 @@ class LightSubpath {
     Sampler &sampler_;
     TraceContext &rays_;
     LightVertices &out_;
+    ClosureArena arena_; ///< of the vertex where the path is
     std::vector<Branch> branches_;
     float target_ = 1;
 };

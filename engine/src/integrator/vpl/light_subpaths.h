@@ -40,8 +40,9 @@ struct SurfaceVertex {
     Vec3f incoming;                     ///< unit, away from the surface
     float error;
     Rgb power;
-    float reflectance; ///< mean component of power * albedo: what it is worth
-    uint32_t material;
+    float reflectance;            ///< mean component of power * albedo: what it is worth
+    uint32_t instance, primitive; ///< for its shading, when it is picked
+    float u, v;
 };
 
 struct LightVertices {
