@@ -21,6 +21,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests import newest_blender
+
 ROOT = Path(__file__).resolve().parent
 ENGINE = ROOT / "engine"
 ADDON = ROOT / "addon"
@@ -293,6 +295,19 @@ def virtual_environment(name: str) -> Path:
     return python
 
 
+def newest_host() -> dict[str, str]:
+    """What tells the tests where the newest Blender is, or why it is not there. Under CI=true it must be there."""
+    pip = (virtual_environment("test"), "-m", "pip")
+    try:
+        python = newest_blender.make(BUILD / "hosts" / "newest", REQUIREMENTS / "newest.txt", pip, say)
+    except newest_blender.UnavailableError as error:
+        if os.environ.get("CI") == "true":
+            raise BuildError(f"the newest Blender cannot be made: {error}") from None
+        say(f"The tests in the newest Blender are skipped: {error}")
+        return {"GLIMMER_NO_NEWEST": str(error)}
+    return {"GLIMMER_NEWEST_PYTHON": str(python)}
+
+
 # ---- Blender -----------------------------------------------------------------------------------------------------
 
 
@@ -449,6 +464,8 @@ def test(blender: str | None, full: bool, extra: Sequence[str]) -> None:
     }
     if executable is not None:
         env["GLIMMER_BLENDER"] = str(executable)
+    if not extra:  # some tests alone take the newest Blender as it is, if it was made
+        env |= newest_host()
     run([python, "-m", "pytest", *(["--full"] if full else []), *extra], env=env)
 
 
@@ -691,6 +708,8 @@ def main(argv: Sequence[str]) -> int:
     try:
         if given.command == "setup":
             setup(given.blender, ("build", "render", "test") if given.test else ("build", "render"))
+            if given.test:
+                newest_host()
         elif given.command == "build":
             install_packages(wanted_packages(("build",), None))
             build(given.preset)

@@ -16,6 +16,7 @@ def default_environment() -> dict[str, Path]:
         "GLIMMER_BIN": ROOT / "build" / "bin" / "glimmer",
         "GLIMMER_LIB_DIR": ROOT / "build" / "lib",
         "GLIMMER_BPY_PYTHON": ROOT / "build" / "venv" / "bpy" / "bin" / "python",
+        "GLIMMER_NEWEST_PYTHON": ROOT / "build" / "hosts" / "newest" / "venv" / "bin" / "python",
     }
     blender = shutil.which("blender")
     return {**paths, "GLIMMER_BLENDER": Path(blender)} if blender else paths
@@ -74,3 +75,14 @@ def blender() -> Path:
 def bpy_python() -> Path:
     """A Python that can import bpy."""
     return product("GLIMMER_BPY_PYTHON", "the bpy wheel")
+
+
+@pytest.fixture(scope="session")
+def newest_python() -> Path:
+    """A Python that can import the newest bpy there is. Where it could not be made, its tests are skipped, but under
+    CI=true.
+    """
+    if os.environ.get("CI") != "true" and not Path(os.environ["GLIMMER_NEWEST_PYTHON"]).exists():
+        made = "it is not made yet; `python3 build.py setup --test` makes it"
+        pytest.skip(f"the newest Blender: {os.environ.get('GLIMMER_NO_NEWEST', made)}")
+    return product("GLIMMER_NEWEST_PYTHON", "the newest bpy wheel")

@@ -105,6 +105,9 @@ def test_installs_as_an_add_on_in_blender(zip_path: Path, blender: Path, tmp_pat
     install_and_render(command, zip_path, "addon", tmp_path)
 
 
+@pytest.mark.parametrize("module", ["bpy_python", "newest_python"])
 @pytest.mark.parametrize("how", ["addon", "extension"])
-def test_installs_in_the_bpy_module(zip_path: Path, bpy_python: Path, tmp_path: Path, how: str) -> None:
-    install_and_render([str(bpy_python)], zip_path, how, tmp_path)
+def test_installs_in_the_bpy_module(
+    request: pytest.FixtureRequest, zip_path: Path, module: str, tmp_path: Path, how: str
+) -> None:
+    install_and_render([str(request.getfixturevalue(module))], zip_path, how, tmp_path)

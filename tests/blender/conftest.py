@@ -27,8 +27,8 @@ def host(request: pytest.FixtureRequest, library_dir: Path, tmp_path_factory: py
         found: Host = request.getfixturevalue("blender_host")
         return found
     profile = tmp_path_factory.mktemp("profile")
-    python = request.getfixturevalue("bpy_python")
-    return Host("bpy", python, environment(profile, library_dir / "libglimmer.so", None))
+    python = request.getfixturevalue(f"{request.param}_python")
+    return Host(request.param, python, environment(profile, library_dir / "libglimmer.so", None))
 
 
 @pytest.fixture(scope="module")

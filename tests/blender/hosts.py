@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-HOSTS = ("blender", "bpy")
+HOSTS = ("blender", "bpy", "newest")  # the executable, the pinned bpy module, and the newest one there is
 
 
 def environment(profile: Path, library: Path, blender: Path | None) -> dict[str, str]:
@@ -35,8 +35,12 @@ class Host:
     program: Path
     env: dict[str, str]
 
+    @property
+    def is_module(self) -> bool:
+        return self.kind != "blender"
+
     def script_command(self, script: Path, *words: str) -> list[str]:
-        if self.kind == "bpy":
+        if self.is_module:
             return [str(self.program), str(script), *words]
         options = ["-b", "--factory-startup", "--python-exit-code", "7", "--python", str(script), "--", *words]
         return [str(self.program), *options]

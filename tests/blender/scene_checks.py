@@ -3,9 +3,9 @@
 
     blender -b --python scene_checks.py -- WHAT OUT.json     or     python scene_checks.py WHAT OUT.json
 
-WHAT is "open" for {scene: {"plates": ..., "instances": ...}}; "compare" for the same with "built" and "file",
-descriptions made of what the scene depends on by walking Blender's own lists of properties; or "furnace" for the
-mean and the standard error of pictures. test_scenes.py judges.
+WHAT is "open" for {scene: {"plates": ..., "instances": ..., "mean": of a small render}}; "compare" for the first two
+and "built" and "file", descriptions made of what the scene depends on by walking Blender's own lists of properties; or
+"furnace" for the mean and the standard error of pictures. test_scenes.py judges.
 """
 
 import importlib
@@ -16,6 +16,9 @@ from typing import Any
 
 import bpy
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+from exact_cycles import use_exr
 
 SCENES = Path(__file__).resolve().parents[2] / "blend_scenes"
 sys.path.insert(0, str(SCENES))
@@ -116,28 +119,32 @@ def plates() -> tuple[int, int]:
     return exported, sum(instance.is_instance for instance in depsgraph.object_instances)
 
 
+def rendered_mean(picture: Path, width: int, height: int) -> float:
+    """Of a render of the open file, which is written to `picture`."""
+    render = bpy.context.scene.render
+    render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
+    use_exr(bpy.context.scene)
+    render.filepath = str(picture)
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(str(picture))
+    pixels = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return float(pixels.reshape(-1, 4)[:, :3].mean(dtype=np.float64))
+
+
 def furnace(picture: Path) -> dict[str, Any]:
     """Mean and standard error of the furnace over renders by Glimmer, a seed each: pixels share light paths, so theirs
     are not independent.
     """
     renders = 64
-    width, height = 96, 54
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / "furnace.blend"))
-    scene = bpy.context.scene
-    scene.render.resolution_x, scene.render.resolution_y = width, height
-    scene.render.image_settings.file_format = "OPEN_EXR"
-    scene.render.image_settings.color_depth = "32"
-    scene.render.filepath = str(picture)
-    scene.glimmer.samples = 32
+    settings = bpy.context.scene.glimmer
+    settings.samples = 32
     means = []
     for seed in range(renders):
-        scene.glimmer.seed = seed
-        bpy.ops.render.render(write_still=True)
-        image = bpy.data.images.load(str(picture))
-        pixels = np.empty(4 * width * height, np.float32)
-        image.pixels.foreach_get(pixels)
-        means.append(pixels.reshape(-1, 4)[:, :3].mean(dtype=np.float64))
-        bpy.data.images.remove(image)
+        settings.seed = seed
+        means.append(rendered_mean(picture, 96, 54))
     return {"mean": np.mean(means), "error": np.std(means, ddof=1) / np.sqrt(renders), "renders": renders}
 
 
@@ -158,6 +165,9 @@ def main(what: str, path: str) -> None:
         if what == "compare":
             result["file"] = describe()
         result["plates"], result["instances"] = plates()
+        if what == "open":
+            bpy.context.scene.glimmer.samples = 4
+            result["mean"] = rendered_mean(Path(path).with_suffix(".exr"), 64, 36)
     Path(path).write_text(json.dumps(results))
 
 

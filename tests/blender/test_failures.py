@@ -40,7 +40,7 @@ def test_no_picture_is_left(broken: dict[str, Any], kind: str) -> None:
 
 def test_a_script_that_catches_decides_in_the_module_alone(broken: dict[str, Any], host: Host) -> None:
     """The executable ends with 1 after a failed render, whatever its script caught; a program decides for itself."""
-    assert broken["status"] == (0 if host.kind == "bpy" else 1)
+    assert broken["status"] == (0 if host.is_module else 1)
 
 
 @pytest.mark.parametrize("what", [["-f", "1"], ["-s", "1", "-e", "2", "-a"]], ids=["frame", "animation"])
@@ -62,7 +62,7 @@ def test_an_uncaught_failure_ends_the_program(host: Host, broken: dict[str, Any]
         f"inside.render(__import__('pathlib').Path({str(tmp_path / 'picture')!r}))\n"
     )
     result = host.run(host.script_command(script))
-    assert result.returncode == (1 if host.kind == "bpy" else result.returncode)
+    assert result.returncode == (1 if host.is_module else result.returncode)
     assert result.returncode != 0
     assert WORDS["orthographic"] in result.stdout + result.stderr
     assert not list(tmp_path.glob("picture*"))

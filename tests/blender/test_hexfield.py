@@ -5,15 +5,13 @@ test here.
 
 import ast
 import json
-import os
-import subprocess
 from pathlib import Path
 from typing import Any
 
 import pytest
+from hosts import Host
 
 SCRIPT = Path(__file__).with_name("hexfield_checks.py")
-HOSTS = ("blender", "bpy")
 
 
 def check_names() -> list[str]:
@@ -25,28 +23,10 @@ def check_names() -> list[str]:
     raise AssertionError(f"{SCRIPT.name} has no CHECKS")
 
 
-@pytest.fixture(scope="module", params=HOSTS)
-def results(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Any:
+@pytest.fixture(scope="module")
+def results(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Any:
     out = tmp_path_factory.mktemp("hexfield") / "results.json"
-    if request.param == "blender":
-        blender = str(request.getfixturevalue("blender"))
-        command = [
-            blender,
-            "-b",
-            "--factory-startup",
-            "--python-exit-code",
-            "7",
-            "--python",
-            str(SCRIPT),
-            "--",
-            str(out),
-        ]
-    else:
-        command = [str(request.getfixturevalue("bpy_python")), str(SCRIPT), str(out)]
-    # Debian's Blender takes the first python3 on PATH for its own, and that one's packages.
-    environment = {**os.environ, "PATH": os.pathsep.join([str(Path(command[0]).parent), os.environ["PATH"]])}
-    process = subprocess.run(command, check=False, env=environment, capture_output=True, text=True, timeout=240)
-    assert process.returncode == 0, process.stdout[-2000:] + process.stderr[-4000:]
+    host.run_script(SCRIPT, str(out), timeout=240)
     return json.loads(out.read_text())["results"]
 
 
