@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Kernels of the path integrator that are compiled for some features alone (engine/src/integrator/path/kernel_features.h): which
-one renders a scene, and that it gives the bits of the full one. Scenes on either side of each feature; see
-tests/blender/test_kernels.py for those of the benchmark.
+"""Kernels of the path integrator that are compiled for some features alone
+(engine/src/integrator/path/kernel_features.h): which one renders a scene, and that it gives the bits of the full one.
+Scenes on either side of each feature; see tests/blender/test_kernels.py for those of the benchmark.
 """
 
 from dataclasses import dataclass, field

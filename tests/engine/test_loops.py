@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The loops of engine/src/integrator/simd: both instruction sets against float64, and against each other bit by bit; and the line
-table that one of them fills.
+"""The loops of engine/src/integrator/simd: both instruction sets against float64, and against each other bit by bit;
+and the line table that one of them fills.
 """
 
 import numpy as np
