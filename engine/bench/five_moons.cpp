@@ -135,9 +135,9 @@ class Minimal {
     bool gather(Fork &fork, float scale, float t, Sampler &sampler, TraceContext &rays, Rgb &sum) const {
         if (!survives(fork.beta, 1 / scale, fork.x, sampler))
             return false;
-        sum += Rgb(fork.beta) * pool_.pool.gather(fork.x, fork.direction, sampler, rays);
+        sum += Rgb(fork.beta) * pool_.vertices.gather(fork.x, fork.direction, sampler, rays);
         const float u = sampler.next_1d();
-        const float k = std::sqrt((1 - u) / std::max(u, 1e-12f)) * pool_.settings.widening(fork.x);
+        const float k = std::sqrt((1 - u) / std::max(u, 1e-12f)) * pool_.settings.clamp_distance_scale(scene_.camera.distance(fork.x));
         fork.medium_compensation_radius = k * pool_.settings.medium_clamp_distance;
         fork.surface_compensation_radius = k * pool_.settings.surface_clamp_distance;
         fork.direction = sample_uniform_sphere(sampler.next_2d());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ray at a boundary of glass: which indices meet there, and the frame to refract in. For camera and light paths
-// alike.
+// A ray at the boundary of a dielectric body: the relative index of refraction, the bodies around the ray beyond it and
+// the frame to refract in. Camera paths and light subpaths share it.
 #pragma once
 
 #include "bsdf/dielectric.h"
@@ -11,13 +11,13 @@
 namespace glimmer {
 
 struct DielectricCrossing {
-    InteriorStack beyond;     ///< the bodies around the ray if it passes
-    float eta;                ///< index on the other side / index on this side
-    Vec3f geometric, shading; ///< on the ray's side
-    Vec3f back;               ///< away from the surface, where the ray comes from
-    bool about_shading;       ///< the frame's normal
+    InteriorStack beyond;     ///< the bodies around the ray if it is transmitted
+    float eta;                ///< index on the far side over the index on this side
+    Vec3f geometric, shading; ///< unit normals on the side that the ray comes from
+    Vec3f back;               ///< unit, from the surface to where the ray comes from
+    bool about_shading;       ///< whether the frame stands on the shading normal or on the geometric one
     Frame frame;
-    Vec3f outgoing; ///< back, in the frame
+    Vec3f outgoing; ///< `back` in the frame
 
     DielectricCrossing(const Interaction &surface, const Material &material, const Vec3f &direction,
                        const InteriorStack &around)
@@ -27,7 +27,7 @@ struct DielectricCrossing {
             beyond.enter(surface.body, material.ior);
         else
             beyond.leave(surface.body);
-        // Out of a body that was never entered (an open mesh): the index on this side is its own.
+        // A ray that leaves a body which it never entered (an open mesh) comes from that body's index.
         eta = beyond.ior() / (entering || !around.empty() ? around.ior() : material.ior);
         const float side = entering ? 1.0f : -1.0f;
         geometric = surface.geometric_normal * side;
@@ -35,35 +35,30 @@ struct DielectricCrossing {
         shade(is_above_horizon(shading, back));
     }
 
-    void shade(bool about_shading_normal) {
-        about_shading = about_shading_normal;
+    /// Chooses the normal that the frame stands on.
+    void shade(bool on_shading_normal) {
+        about_shading = on_shading_normal;
         frame = Frame(about_shading ? shading : geometric);
         outgoing = frame.to_local(back);
         outgoing.z = std::max(outgoing.z, 1e-7f);
     }
 
     Vec3f to_world(const Vec3f &local) const { return normalize(frame.to_world(local)); }
-    /// Whether a sampled direction is on the side of the true surface that it claims.
+    /// Whether a sampled direction lies on the side of the geometric surface that its kind of event requires.
     bool possible(const Vec3f &direction, bool transmitted) const {
         return (dot(direction, geometric) < 0) == transmitted;
     }
-    /// Whether a path that comes from a sampled direction is shaded about the frame's normal, too.
+    /// Whether a camera path along the reversed direction would be shaded about this frame's normal too.
     bool holds_backwards(const Vec3f &direction, bool transmitted) const {
         return is_above_horizon(transmitted ? -shading : shading, direction) == about_shading;
     }
-    /// Whether a direction sampled about the true normal may be beneath the shading normal's horizon: it is no steeper
-    /// then than the normals are apart.
+    /// Whether a direction sampled about the geometric normal may fall below the shading normal's horizon, which
+    /// requires it to be no steeper than the angle between the two normals.
     bool may_leave_beneath_horizon() const {
         const float cos = dot(back, geometric), apart2 = length_squared(cross(shading, geometric));
         const float refracted2 = (cos * cos + (eta - 1) * (eta + 1)) / (eta * eta);
         return cos * cos <= apart2 || (refracted2 > 0 && refracted2 <= apart2);
     }
 };
-
-/// The chance to go on after so many mirrors and sheets of glass in a row: total reflection can hold light in a body
-/// for ever, at no loss that roulette by throughput would see.
-inline float specular_survival(uint32_t specular_depth) {
-    return specular_depth < 256 ? 1.0f : 0.98f;
-}
 
 } // namespace glimmer

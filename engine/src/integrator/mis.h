@@ -4,8 +4,8 @@
 
 namespace glimmer {
 
-/// The balance heuristic's weight of technique a against b, as 1 / (1 + b/a): densities may be infinite or 0 one at a
-/// time without becoming NaN. 1 where b is 0.
+/// The balance heuristic's weight of technique a against technique b, given their densities. Written as
+/// 1 / (1 + b/a), so that either density alone may be infinite or 0 without the weight becoming NaN.
 inline float balance(float a, float b) {
     if (b == 0)
         return 1;

@@ -1,23 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long Russian roulette spares a path: until its throughput has fallen to one part in so many. To end it early
-// saves little, since the camera's ray, its medium and its direct light are paid for already; and of those that would
-// have come to something bright the few that are left are the brighter.
+// Russian roulette (docs/method.md, section 10). A path survives with probability min(1, scale * weight), where weight
+// is its throughput times a bound on what it can still bring. A scale above 1 spares a path until only that part of its
+// throughput is left. Ending a path early saves little, because its camera ray, medium and direct light are already
+// paid for; and where something bright was still to come, the few survivors are the brighter.
 #pragma once
+
+#include "base/tunable.h"
+
+#include <cstdint>
 
 namespace glimmer {
 
-/// At surfaces, and where the medium between them is joined to the light vertices. Variance at equal cost, of roulette
-/// from the start: .90 on glimmervoid and .87 without its medium, .74 for smooth metal in medium, .92 for metals and
-/// glass under a sky, .45 and .43 in diffuse rooms of albedo .8 and .3. With 2 or 4 it is about the same; with 16 next
-/// to nothing is left of the gain on metal.
-inline constexpr float kRouletteScaleAtSurfaces = 3;
+/// The scale at surfaces, and at segments between them whose medium is joined to light vertices. Measured:
+/// `build.py bench --tuning kRouletteScaleAtSurfaces`.
+GLIMMER_TUNABLE_CONSTANT(float, kRouletteScaleAtSurfaces, 3);
 
-/// Where the medium that the camera sees is joined to the light vertices, and along the short rays that start there:
-/// .59 for moons in medium, .90 in thick medium, .82 on a rough field. With 4 or 16 about the same.
-inline constexpr float kRouletteScaleAtGathers = 8;
+/// The scale at gather points that the camera sees directly, and along their compensation rays. Measured:
+/// `build.py bench --tuning kRouletteScaleAtGathers`.
+GLIMMER_TUNABLE_CONSTANT(float, kRouletteScaleAtGathers, 8);
 
-/// Paths that walk through medium by themselves are not spared: in thick medium of albedo .99 they would be a hundred
-/// scatterings longer, for 1.15 of the variance at equal cost with 2 and 1.6 with 8. (In thin medium 2 would give .7.)
-inline constexpr float kRouletteScaleInMedium = 1;
+/// The scale where paths walk through the medium without light vertices. Measured: `build.py bench --tuning
+/// kRouletteScaleInMedium`. In thick medium of high albedo spared paths are a hundred scatterings longer.
+GLIMMER_TUNABLE_CONSTANT(float, kRouletteScaleInMedium, 1);
+
+/// Probability of going on after so many mirrors and dielectrics in a row. Total internal reflection can hold light in
+/// a body for ever without a loss of throughput that the roulette above would see. Both numbers are chosen: such chains
+/// carry light that matters only in deliberate constructions, and any survival below 1 ends them.
+inline float specular_survival(uint32_t specular_depth) {
+    constexpr uint32_t kSpecularDepthSpared = 256;
+    constexpr float kSpecularSurvival = 0.98f;
+    return specular_depth < kSpecularDepthSpared ? 1.0f : kSpecularSurvival;
+}
 
 } // namespace glimmer

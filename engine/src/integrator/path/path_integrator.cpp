@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/path/path_integrator.h"
 
+#include "integrator/dielectrics_at.h"
 #include "integrator/direct/emitter_rays.h"
 #include "integrator/path/kernels.h"
-#include "integrator/return_bound.h"
 
 namespace glimmer {
 

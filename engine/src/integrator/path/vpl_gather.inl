@@ -38,7 +38,7 @@ bool PathSample<F>::gather(State &state, float scale, float t, float roulette_sc
     if (!survives(state, x, roulette_scale))
         return false;
     state.rr_scale *= scale;
-    const Rgb value = state.beta * pool_->pool.gather(x, state.ray.direction, sampler_, rays_);
+    const Rgb value = state.beta * pool_->vertices.gather(x, state.ray.direction, sampler_, rays_);
     (state.path_class == PathClass::surface ? result_.indirect : result_.medium) += value;
     const float u = sampler_.next_1d(); // P(k d0(x) > d) = 1 - w(d)
     const float k =
@@ -50,7 +50,7 @@ bool PathSample<F>::gather(State &state, float scale, float t, float roulette_sc
     const float splat = t > 0 ? sampler_.next_1d() : 1;
     if constexpr (F.surfaces) // nothing else sends beams
         state.splatted =
-            t > 0 && splat < splat_share(scene_.camera.footprint(t), seen, state.ray.direction, pool_->settings);
+            t > 0 && splat < splat_fraction(scene_.camera.footprint(t), seen, state.ray.direction, pool_->settings);
     state.origin = {};
     ++state.depth;
     ++state.scatter;

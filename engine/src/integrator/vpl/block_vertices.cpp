@@ -2,6 +2,8 @@
 #include "integrator/vpl/block_vertices.h"
 
 #include "integrator/simd/kernels.h"
+#include "integrator/vpl/connection.h"
+#include "integrator/vpl/tuning.h"
 #include "medium/phase.h"
 
 #include <array>
@@ -11,10 +13,7 @@ namespace glimmer {
 
 namespace {
 
-// Of the picks by target, the rest by number: no vertex has probability 0, and none counts for many. (By power would
-// spend them far away, where the weight window leaves few and heavy vertices.)
-constexpr float kGuided = 0.7f;
-constexpr float kSoften = 3; // targets see bounds this much larger, for points that the representatives are not
+static_assert(tuning::kMediumPicks % kSimdLanes == 0, "a subset of picks fills whole registers");
 
 VertexColumns columns(const MediumVertices &v, size_t first) {
     const auto from = [&](const std::vector<float> &column) { return column.data() + first; };
@@ -27,11 +26,13 @@ float mean_extinction(const HomogeneousMedium &medium) {
     return (medium.sigma_t.r + medium.sigma_t.g + medium.sigma_t.b) / 3;
 }
 
-/// One systematic draw of `count` of the entries by targets: calls pick(k, j, 1 / (p_j * count)) with k from 0. Entries
-/// of power 0 bring nothing and are left out.
+/// Systematic resampling: draws `count` of the entries with one random number and calls pick(k, j, 1 / (p_j * count)),
+/// k from 0. p_j is a defensive mixture of the targets and of the uniform distribution, so that no vertex has
+/// probability 0 and none counts for many. (By power in place of uniform would spend picks far away, where the weight
+/// window leaves few and heavy vertices.) Entries of power 0 bring nothing and are left out.
 template <class Pick>
-void draw(const std::vector<float> &targets, const std::vector<float> &powers, uint32_t count, float u,
-          const Pick &pick) {
+void resample(const std::vector<float> &targets, const std::vector<float> &powers, uint32_t count, float u,
+              const Pick &pick) {
     double target_sum = 0;
     size_t bright = 0;
     for (size_t j = 0; j < targets.size(); ++j) {
@@ -40,20 +41,22 @@ void draw(const std::vector<float> &targets, const std::vector<float> &powers, u
     }
     if (bright == 0)
         return;
-    const double guided = target_sum > 1e-30 ? double(kGuided) : 0.0;
-    const double by_target = guided > 0 ? guided / target_sum : 0.0, by_number = (1 - guided) / double(bright);
+    const double by_target_share = target_sum > 1e-30 ? double(tuning::kPicksByTarget) : 0.0;
+    const double by_target = by_target_share > 0 ? by_target_share / target_sum : 0.0,
+                 uniform = (1 - by_target_share) / double(bright);
     double sum = 0;
     uint32_t k = 0;
     for (size_t j = 0; j < targets.size() && k < count; ++j) {
-        const double p = powers[j] > 0 ? by_target * double(targets[j]) + by_number : 0.0;
+        const double p = powers[j] > 0 ? by_target * double(targets[j]) + uniform : 0.0;
         sum += p;
-        // The last vertex takes what rounding left over.
+        // The last vertex takes the picks that rounding left over.
         for (; k < count && ((k + double(u)) < sum * count || (j + 1 == targets.size() && p > 0)); ++k)
             pick(k, j, float(1 / (p * count)));
     }
 }
 
-/// The vertex at which the parts, added up lane by lane, exceed `left`; rounding may let `left` outlast them.
+/// The vertex at which the parts, added up lane by lane, exceed `left`. Where rounding lets `left` outlast them all,
+/// the last vertex that has a part.
 size_t pick_medium_part(const float *parts, size_t count, const ConnectionSums &sums, float left) {
     size_t lane = 0, last_lane = 0;
     for (; lane < kSimdLanes && !(left < sums.by_lane[lane]); ++lane) {
@@ -93,19 +96,19 @@ void BlockVertices::pick_medium(const MediumVertices &vertices, const std::vecto
     seen.reserve(points.size());
     for (const Vec3f &q : points)
         seen.push_back({q.x, q.y, q.z, 0, 0, 0});
-    // The last few are drawn by number alone.
+    // The vertices that do not fill a register keep a target of 0 and are drawn uniformly.
     simd_kernels().weigh(simd_view(*scene_.medium), columns(vertices, 0), n - n % kSimdLanes, seen.data(), seen.size(),
-                         kSoften * settings_.medium_clamp_distance, targets.data());
+                         tuning::kTargetClampFactor * settings_.medium_clamp_distance, targets.data());
     for (size_t j = 0; j < n; ++j) {
         powers[j] = mean_component(vertices.power(j));
         targets[j] *= powers[j];
     }
-    const uint32_t count = settings_.subsets * settings_.medium_picks;
+    const uint32_t count = settings_.subsets * uint32_t(tuning::kMediumPicks);
     std::vector<uint32_t> chosen(count);
     std::vector<float> scale(count, 0.0f);
-    draw(targets, powers, count, u, [&](uint32_t k, size_t vertex, float factor) {
+    resample(targets, powers, count, u, [&](uint32_t k, size_t vertex, float factor) {
         chosen[k] = uint32_t(vertex);
-        scale[k] = factor * float(settings_.subsets); // one sub-pool alone stands for all
+        scale[k] = factor * float(settings_.subsets); // one subset alone stands for all
     });
     for (uint32_t s = 0; s < settings_.subsets; ++s)
         for (uint32_t k = s; k < count; k += settings_.subsets)
@@ -118,7 +121,8 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
     if (vertices.empty())
         return;
     const float sigma = mean_extinction(*scene_.medium);
-    const float soften = kSoften * kSoften * settings_.surface_clamp_distance * settings_.surface_clamp_distance;
+    const float clamp2 = tuning::kTargetClampFactor * tuning::kTargetClampFactor * settings_.surface_clamp_distance *
+                         settings_.surface_clamp_distance;
     std::vector<float> targets(vertices.size()), powers(vertices.size());
     for (size_t j = 0; j < vertices.size(); ++j) {
         const SurfaceVertex &v = vertices[j];
@@ -126,16 +130,16 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
         for (const Vec3f &q : points) {
             const Vec3f to_point = q - v.position;
             const float d2 = length_squared(to_point), d = std::sqrt(d2);
-            near += (std::max(dot(to_point, v.geometric) / std::max(d, 1e-30f), 0.0f) + 0.01f) * std::exp(-sigma * d) /
-                    (d2 + soften);
+            const float cosine = std::max(dot(to_point, v.geometric) / std::max(d, 1e-30f), 0.0f);
+            near += (cosine + tuning::kTargetCosineFloor) * std::exp(-sigma * d) / (d2 + clamp2);
         }
-        powers[j] = v.reflectance + 1e-6f * mean_component(v.power);
+        powers[j] = v.reflected + tuning::kTargetPowerFloor * mean_component(v.power);
         targets[j] = near * powers[j];
     }
-    const uint32_t count = settings_.subsets * settings_.surface_picks;
+    const uint32_t count = settings_.subsets * uint32_t(tuning::kSurfacePicks);
     std::vector<SurfaceVertex> picked;
     picked.reserve(count);
-    draw(targets, powers, count, u, [&](uint32_t, size_t vertex, float factor) {
+    resample(targets, powers, count, u, [&](uint32_t, size_t vertex, float factor) {
         picked.push_back(vertices[vertex]);
         picked.back().power *= factor * float(settings_.subsets);
     });
@@ -155,19 +159,19 @@ Bsdf BlockVertices::shade(const SurfaceVertex &v) {
 Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, TraceContext &rays) const {
     const HomogeneousMedium &medium = *scene_.medium;
     const HenyeyGreenstein phase{medium.g};
-    const bool even = !medium_.directed;
+    const bool isotropic = !medium_.directed;
     const uint32_t subset = std::min(uint32_t(sampler.next_1d() * float(settings_.subsets)), settings_.subsets - 1);
-    alignas(64) std::array<float, VplSettings::medium_picks> medium_parts;
-    std::array<float, VplSettings::surface_picks> surface_parts;
-    std::array<Rgb, VplSettings::surface_picks> surface_values;
+    alignas(64) std::array<float, tuning::kMediumPicks> medium_parts;
+    std::array<float, tuning::kSurfacePicks> surface_parts;
+    std::array<Rgb, tuning::kSurfacePicks> surface_values;
     const float clamp_distance_scale = settings_.clamp_distance_scale(scene_.camera.distance(x));
     const float medium_clamp_distance = clamp_distance_scale * settings_.medium_clamp_distance,
                 surface_clamp_distance = clamp_distance_scale * settings_.surface_clamp_distance;
     Rgb total;
     float parts = 0;
 
-    const size_t medium_count = medium_.size() ? settings_.medium_picks : 0,
-                 medium_first = size_t(subset) * settings_.medium_picks;
+    const size_t medium_count = medium_.size() ? tuning::kMediumPicks : 0,
+                 medium_first = size_t(subset) * tuning::kMediumPicks;
     ConnectionSums medium_sums{};
     if (medium_count) {
         const SeenPoint point{x.x, x.y, x.z, seen.x, seen.y, seen.z};
@@ -176,8 +180,8 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
         total = Rgb(medium_sums.r, medium_sums.g, medium_sums.b);
         parts = medium_sums.part;
     }
-    const size_t surface_count = surface_.empty() ? 0 : settings_.surface_picks;
-    const ShadedVertex *surface = surface_count ? &surface_[size_t(subset) * settings_.surface_picks] : nullptr;
+    const size_t surface_count = surface_.empty() ? 0 : tuning::kSurfacePicks;
+    const ShadedVertex *surface = surface_count ? &surface_[size_t(subset) * tuning::kSurfacePicks] : nullptr;
     for (size_t k = 0; k < surface_count; ++k) {
         const SurfaceVertex &v = surface[k].vertex;
         const Vec3f to_point = x - v.position;
@@ -196,7 +200,7 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
     if (!(parts > 0))
         return total;
 
-    // Visibility by one shadow ray: the sum as if all were seen, corrected by one vertex.
+    // One shadow ray corrects the sum, which took every vertex for visible (docs/method.md, section 4).
     float left = sampler.next_1d() * parts;
     ++rays.rays;
     for (size_t k = 0; k < surface_count; ++k) {
@@ -212,15 +216,15 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
     if (medium_count == 0)
         return total;
     const size_t k = pick_medium_part(medium_parts.data(), medium_count, medium_sums, left);
-    if (!(medium_parts[k] > 0)) // rounding let the number outlast the surface's parts, and the medium has none
+    if (!(medium_parts[k] > 0)) // rounding let `left` outlast the surface's parts, and the medium has none
         return total;
     const size_t j = medium_first + k;
     const Vec3f way = medium_.position(j) - x;
     const float d = length(way);
     if (!(d > 0) || !scene_.accel->occluded({x, way / d, d}))
         return total;
-    const float phases = even ? kIsotropicPhase * kIsotropicPhase
-                              : phase.eval(seen, way / d) * phase.eval(medium_.direction(j), -way / d);
+    const float phases = isotropic ? kIsotropicPhase * kIsotropicPhase
+                                   : phase.eval(seen, way / d) * phase.eval(medium_.direction(j), -way / d);
     const Rgb value =
         medium_.power(j) * medium.transmittance(d) * (phases / (d * d + medium_clamp_distance * medium_clamp_distance));
     return total - value * (parts / medium_parts[k]);

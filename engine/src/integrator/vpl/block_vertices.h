@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The light vertices that matter to one block of pixels, resampled, and their bounded connections to points in the
-// medium.
+// The light vertices picked for one block of pixels, and VPL gathering (docs/method.md, sections 4, 5 and 7).
 #pragma once
 
-#include "integrator/vpl/light_subpaths.h"
+#include "integrator/integrator.h"
+#include "integrator/vpl/light_vertices.h"
+#include "integrator/vpl/vpl_settings.h"
+
+#include <vector>
 
 namespace glimmer {
 
-/// Resampled vertices. p_j is proportional to what vertex j brings to representative points of the block, one
-/// systematic draw.
+/// Light vertices resampled for a block: vertex j is picked with a probability proportional to what it brings to a few
+/// gather points of the block, all picks by one systematic draw, dealt out to interleaved subsets.
 class BlockVertices {
   public:
+    /// points: gather points that stand for the block.
     BlockVertices(const Scene &scene, const LightVertices &vertices, const VplSettings &settings,
                   const std::vector<Vec3f> &points, Sampler &sampler);
 
     bool empty() const { return medium_.size() == 0 && surface_.empty(); }
 
-    /// The radiance that the medium at x scatters towards the camera, which looks along `seen`, per unit of its
-    /// scattering weight, of all light that was scattered at least once before, each vertex by the share w(d), with the
-    /// bounds of x (VplSettings::widening): the sum over a sub-pool, less one vertex chosen by its part of the sum if
-    /// that one is hidden, over its probability. Unbiased; single estimates may be negative.
+    /// Radiance that the medium at x scatters towards the camera, which looks along `seen` (unit, away from the
+    /// camera), per unit of the weight of scattering at x: all light that was scattered at least once before, each
+    /// vertex weighted by w(d) with the clamp distance of x. The sum over one subset of the picks, corrected by one
+    /// shadow ray. Unbiased; a single estimate may be negative.
     Rgb gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, TraceContext &rays) const;
 
   private:
-    /// A vertex on a surface, shaded where it was picked, for all of its connections.
+    /// A picked surface vertex with its closures, which all of its connections share.
     struct ShadedVertex {
         SurfaceVertex vertex;
         Bsdf bsdf;
@@ -34,9 +38,9 @@ class BlockVertices {
 
     const Scene &scene_;
     VplSettings settings_;
-    MediumVertices medium_;             ///< (subsets, medium_picks)
-    std::vector<ShadedVertex> surface_; ///< (subsets, surface_picks)
-    ClosureArena closures_;             ///< of surface_
+    MediumVertices medium_;             ///< (subsets, kMediumPicks)
+    std::vector<ShadedVertex> surface_; ///< (subsets, kSurfacePicks)
+    ClosureArena closures_;             ///< those that surface_ refers to
 };
 
 } // namespace glimmer

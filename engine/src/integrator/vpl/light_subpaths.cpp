@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/vpl/light_subpaths.h"
 
-#include "camera/camera_sample.h"
 #include "integrator/dielectric_crossing.h"
+#include "integrator/dielectrics_at.h"
 #include "integrator/return_bound.h"
+#include "integrator/roulette.h"
 #include "integrator/shading_frame.h"
 #include "integrator/vpl/bounded_fraction.h"
+#include "integrator/vpl/connection.h"
+#include "integrator/vpl/tuning.h"
 #include "light/emission.h"
 #include "medium/phase.h"
 
@@ -15,17 +18,9 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kGuidedStart = 0.85f; // of the paths start by importance, the rest at any light
-constexpr uint32_t kBeams = 32;       // of what no vertex holds, at a surface; times the path's weight, up to so much:
-constexpr float kMostBeams = 64;      // a path straight from a moon far off in the haze may be worth thousands
-constexpr float kSplitAbove = 1.5f, kMostBranches = 8;
-// Paths live on with that much less than the window asks for, and split the sooner: at equal cost the error of pixels
-// is the same, .92 in thick medium, that of blocks, which all come from the same paths, .74 there and .9 over plates.
-constexpr float kWindowScale = 1.5f;
-
-/// One path. All of its decisions follow the flux, so refraction scales nothing. Light that comes from a point by way
-/// of mirrors and glass alone is left out: no path from the camera meets it, and so nothing would give back what
-/// bounded connections take away of it.
+/// One light subpath. It carries flux, so refraction scales nothing. Light from a point light that has met only mirrors
+/// and dielectrics is left out: no camera path can meet it, so nothing would compensate what bounded connections take
+/// away of it.
 class LightSubpath {
   public:
     LightSubpath(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings, Sampler &sampler,
@@ -50,18 +45,19 @@ class LightSubpath {
         Ray ray;
         Rgb power;
         InteriorStack glass;
-        bool from_delta;             ///< straight from a light without size
-        uint32_t specular_depth = 0; ///< mirrors and glass in a row
-        float remainder = 0; ///< the part of the power that no vertex holds where the ray began; 0 but on surfaces
+        bool from_delta;             ///< comes from a light without size and has not been scattered yet
+        uint32_t specular_depth = 0; ///< mirrors and dielectrics in a row
+        float remainder =
+            0; ///< fraction of the power that connections of the last vertex do not carry; 0 in the medium
     };
 
     void segment(Branch path) {
         const auto hit = scene_.accel->intersect(path.ray);
         ++rays_.rays;
-        const float own = path.ray.t_max; // finite only within a see-through ball, where it ends
+        const float own_end = path.ray.t_max; // finite only within a see-through ball light, where the ray ends
         path.ray.t_max = kInfinity;
         if (scene_.medium && path.glass.empty()) {
-            const FreeFlight flight = sample_free_flight(*scene_.medium, path.power, hit ? hit->t : own, sampler_);
+            const FreeFlight flight = sample_free_flight(*scene_.medium, path.power, hit ? hit->t : own_end, sampler_);
             path.power *= flight.weight;
             if (flight.scattered)
                 return scatter_in_medium(path, path.ray.origin + path.ray.direction * flight.t);
@@ -70,22 +66,23 @@ class LightSubpath {
             scatter_at_surface(path, *hit);
     }
 
-    /// What no vertex holds of the light that leaves a surface, seen in the medium.
-    void splat_segment(const Branch &path) {
-        if (!(path.remainder > 0) || !is_seen(scene_, path.ray))
+    /// Splats what connections do not carry of the light that has just left a surface.
+    void splat_remainder(const Branch &path) {
+        if (!(path.remainder > 0) || !is_in_picture(scene_, path.ray))
             return;
-        SubpathSegment beam{path.ray, path.power, path.remainder};
+        SubpathSegment segment{path.ray, path.power, path.remainder};
         ++rays_.rays;
         if (const auto hit = scene_.accel->intersect(path.ray))
-            beam.ray.t_max = hit->t;
-        splat(scene_, beam, settings_, sampler_, rays_, out_.splats);
+            segment.ray.t_max = hit->t;
+        splat(scene_, segment, settings_, sampler_, rays_, out_.splats);
     }
 
-    /// The weight window: what a path carries to x, relative to what the importance of the place asks for. Below 1 it
-    /// lives on with that probability; far above, it is worth several paths.
-    float survive(Branch &path, const Vec3f &x) {
+    /// The weight window: the subpath's power times the importance of x, relative to where the subpath started. Below 1
+    /// the subpath survives with that probability. Returns the weight after roulette, 0 where the subpath ends; well
+    /// above 1, it is worth several subpaths.
+    float apply_window(Branch &path, const Vec3f &x) {
         const float weight =
-            kWindowScale * max_component(path.power) * importance_(x) * return_bound(scene_, x) / target_;
+            tuning::kWindowScale * max_component(path.power) * importance_(x) * return_bound(scene_, x) / target_;
         if (!(weight > 0) || (weight < 1 && sampler_.next_1d() >= weight))
             return 0;
         if (weight >= 1)
@@ -94,17 +91,17 @@ class LightSubpath {
         return 1;
     }
 
-    /// Goes on as one path, or as several that share its power.
+    /// Goes on as one subpath, or as several that share its power.
     template <class GoOn>
     void split(Branch &path, float weight, const GoOn &go_on) {
-        const uint32_t n = weight > kSplitAbove ? uint32_t(std::min(weight + 0.5f, kMostBranches)) : 1;
+        const uint32_t n = weight > tuning::kSplitAbove ? uint32_t(std::min(weight + 0.5f, tuning::kMostParts)) : 1;
         path.power *= 1 / float(n);
         for (uint32_t i = 0; i < n; ++i)
             go_on(path);
     }
 
     void scatter_in_medium(Branch &path, const Vec3f &x) {
-        const float weight = survive(path, x);
+        const float weight = apply_window(path, x);
         if (weight == 0)
             return;
         const Vec3f before = path.ray.direction;
@@ -125,7 +122,7 @@ class LightSubpath {
             return cross_dielectric(path, surface, material);
         arena_.clear();
         const Bsdf bsdf = scene_.materials.shade(surface, {-path.ray.direction}, arena_).bsdf;
-        const float weight = bsdf.empty() ? 0 : survive(path, surface.position);
+        const float weight = bsdf.empty() ? 0 : apply_window(path, surface.position);
         if (weight == 0)
             return;
         const Vec3f incoming = -path.ray.direction;
@@ -146,12 +143,13 @@ class LightSubpath {
         if (!is_specular(bsdf))
             out_.surface.push_back(v);
         if (scene_.medium && path.glass.empty() && !is_bounded(max_value(bsdf))) {
-            const auto beams = uint32_t(float(kBeams) * std::min(weight, kMostBeams));
-            for (uint32_t k = 0; k < beams; ++k) {
-                Branch beam = path;
-                beam.power *= 1 / float(beams);
-                if (reflect(beam, v, surface, bsdf))
-                    splat_segment(beam);
+            const auto directions =
+                uint32_t(float(tuning::kSplatDirections) * std::min(weight, tuning::kMostSplatWeight));
+            for (uint32_t k = 0; k < directions; ++k) {
+                Branch part = path;
+                part.power *= 1 / float(directions);
+                if (reflect(part, v, surface, bsdf))
+                    splat_remainder(part);
             }
         }
         split(path, weight, [&](Branch next) {
@@ -160,27 +158,28 @@ class LightSubpath {
         });
     }
 
-    /// Samples the adjoint of what a camera path does: f |w_in.ns| / |w_in.ng| * |w_out.ng|, with the frame as seen
-    /// along w_out (Veach 1997, 5.3). Where the normals differ, the frame of w_in has no samples for some directions
-    /// that the camera can see: a part of them is drawn about the true normal.
+    /// Samples the adjoint of what a camera path does, f |w_in.ns| / |w_in.ng| * |w_out.ng|, with the frame that a
+    /// viewer along w_out would use (Veach 1997, 5.3). Where the normals differ, the frame of w_in has no samples for
+    /// some directions that the camera can see, so a share of the samples is drawn about the geometric normal. False
+    /// where the subpath ends.
     bool reflect(Branch &path, const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
         const bool bent = !(v.shading == v.geometric), about_shading = is_above_horizon(v.shading, v.incoming);
         const Frame frame(about_shading ? v.shading : v.geometric);
         const Vec3f incoming = frame.to_local(v.incoming);
         if (!(incoming.z > 0))
             return false;
-        constexpr float kTrueNormal = 0.125f, kTrueMirror = 0.25f;
-        const float even = bent && !is_specular(bsdf) ? kTrueNormal : 0;
-        const float flat = bent && about_shading && has_specular(bsdf) && mirrors_beneath_horizon(v) ? kTrueMirror : 0;
-        const float own = 1 - even - flat, u_way = bent ? sampler_.next_1d() : 1;
-        if (u_way < flat) {
+        const float cosine_share = bent && !is_specular(bsdf) ? tuning::kTrueNormalShare : 0;
+        const float mirror_share =
+            bent && about_shading && has_specular(bsdf) && mirrors_beneath_horizon(v) ? tuning::kTrueMirrorShare : 0;
+        const float bsdf_share = 1 - cosine_share - mirror_share, u_way = bent ? sampler_.next_1d() : 1;
+        if (u_way < mirror_share) {
             const Frame true_frame(v.geometric);
             const auto s = sample(bsdf, true_frame.to_local(v.incoming), sampler_.next_1d(), sampler_.next_2d());
-            return s && s->specular && reflect_as_mirror(path, v, surface, true_frame, false, *s, flat);
+            return s && s->specular && reflect_as_mirror(path, v, surface, true_frame, false, *s, mirror_share);
         }
         Vec3f direction;
         float density;
-        if (u_way < flat + even) {
+        if (u_way < mirror_share + cosine_share) {
             path.specular_depth = 0;
             direction = normalize(Frame(v.geometric).to_world(sample_cosine_hemisphere(sampler_.next_2d())));
             density = pdf(bsdf, incoming, frame.to_local(direction));
@@ -189,7 +188,7 @@ class LightSubpath {
             if (!s)
                 return false;
             if (s->specular)
-                return reflect_as_mirror(path, v, surface, frame, about_shading, *s, own);
+                return reflect_as_mirror(path, v, surface, frame, about_shading, *s, bsdf_share);
             direction = normalize(frame.to_world(s->wi));
             if (!(dot(direction, v.geometric) > 0))
                 return false;
@@ -204,20 +203,20 @@ class LightSubpath {
         const float cosine = dot(direction, v.geometric);
         if (!(cosine > 0))
             return false;
-        density = own * density + even * pdf_cosine_hemisphere(cosine);
+        density = bsdf_share * density + cosine_share * pdf_cosine_hemisphere(cosine);
         const Connection c = connect(v, bsdf, direction);
         path.power *= c.factor * (1 / density);
         leave(path, surface, direction, 1 - c.bounded);
         return true;
     }
 
-    /// Whether a camera path may come from where a mirror about the true normal sends the light.
+    /// Whether a camera path may come from where a mirror about the geometric normal sends the light.
     static bool mirrors_beneath_horizon(const SurfaceVertex &v) {
         const Vec3f mirrored = v.geometric * (2 * dot(v.incoming, v.geometric)) - v.incoming;
         return !is_above_horizon(v.shading, mirrored);
     }
 
-    /// share: of the draws that were for a sample of this frame.
+    /// share: the probability with which a sample of this frame was drawn.
     bool reflect_as_mirror(Branch &path, const SurfaceVertex &v, const Interaction &surface, const Frame &frame,
                            bool about_shading, const BsdfSample &s, float share) {
         const Vec3f direction = normalize(frame.to_world(s.wi));
@@ -250,8 +249,9 @@ class LightSubpath {
         DielectricCrossing crossing(surface, material, path.ray.direction, path.glass);
         const bool bent = !(crossing.shading == crossing.geometric);
         if (bent && crossing.about_shading && crossing.may_leave_beneath_horizon()) {
-            crossing.shade(sampler_.next_1d() < 0.5f);
-            path.power *= 2;
+            const bool on_shading = sampler_.next_1d() < 1 - tuning::kTrueDielectricShare;
+            crossing.shade(on_shading);
+            path.power *= 1 / (on_shading ? 1 - tuning::kTrueDielectricShare : tuning::kTrueDielectricShare);
         }
         const DielectricSample s =
             sample_dielectric(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
@@ -268,7 +268,7 @@ class LightSubpath {
             path.glass = crossing.beyond;
         leave(path, surface, direction, 1);
         if (scene_.medium && path.glass.empty())
-            splat_segment(path);
+            splat_remainder(path);
         branches_.push_back(path);
     }
 
@@ -283,60 +283,9 @@ class LightSubpath {
     float target_ = 1;
 };
 
-} // namespace
-
-Connection connect(const SurfaceVertex &v, Bsdf bsdf, const Vec3f &direction) {
-    const float cosine = dot(direction, v.geometric);
-    if (!(cosine > 0))
-        return {};
-    const Frame frame(is_above_horizon(v.shading, direction) ? v.shading : v.geometric);
-    const Vec3f incoming = frame.to_local(v.incoming), outgoing = frame.to_local(direction);
-    if (!(incoming.z > 0) || !(outgoing.z > 0))
-        return {};
-    const Rgb f_cos = eval(bsdf, outgoing, incoming);
-    return {f_cos * (cosine / dot(v.incoming, v.geometric)), bounded_fraction(f_cos, outgoing.z, incoming.z)};
-}
-
-ImportanceMap::ImportanceMap(const Scene &scene, std::vector<Vec3f> points) : points_(std::move(points)) {
-    if (!scene.medium)
-        return;
-    soften_ = 0.25f / (max_component(scene.medium->sigma_t) * max_component(scene.medium->sigma_t));
-    kappa_ = effective_attenuation(*scene.medium);
-}
-
-float ImportanceMap::operator()(const Vec3f &x) const {
-    float sum = 1e-30f;
-    for (const Vec3f &q : points_) {
-        const float d2 = length_squared(x - q);
-        sum += std::exp(-kappa_ * std::sqrt(d2)) / std::sqrt(d2 + soften_);
-    }
-    return std::sqrt(sum * std::sqrt(sum));
-}
-
-std::vector<Vec3f> sample_visible_points(const Scene &scene, const Rectangle &pixels,
-                                         const InteriorStack &around_camera, uint32_t count, Sampler &sampler,
-                                         TraceContext &rays) {
-    std::vector<Vec3f> points;
-    if (!scene.medium || !around_camera.empty())
-        return points;
-    for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t x = pick_pixel(pixels.x, pixels.width, sampler.next_1d()),
-                       y = pick_pixel(pixels.y, pixels.height, sampler.next_1d());
-        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
-        const auto hit = scene.accel->intersect(ray);
-        ++rays.rays;
-        const float u_channel = scene.medium->monochromatic ? 0 : sampler.next_1d();
-        const uint64_t bits = ~0ull / count * i + sampler.next_bits() / count;
-        const Collision c = sample_collision(*scene.medium, Rgb(1), hit ? hit->t : kInfinity, u_channel, bits);
-        if (c.pdf > 0)
-            points.push_back(ray.origin + ray.direction * c.t);
-    }
-    return points;
-}
-
-LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
-                                   Sampler &sampler, const std::atomic<bool> &stop, TraceContext &rays) {
-    const LightSet &lights = scene.lights;
+/// The share of the subpaths that start at each light: by its power times the importance of its place, in a defensive
+/// mixture with the uniform distribution. 0 for infinite lights; empty where all are infinite.
+std::vector<double> start_shares(const LightSet &lights, const ImportanceMap &importance) {
     std::vector<double> shares(lights.size());
     double total = 0;
     uint32_t finite = 0;
@@ -345,22 +294,32 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
             total += shares[i] = double(b.strength) * double(importance(b.center));
             ++finite;
         }
-    LightVertices out;
-    out.medium.directed = scene.medium && scene.medium->g != 0;
     if (!finite)
-        return out;
+        return {};
+    const double by_importance = double(tuning::kStartsByImportance);
+    const double uniform = double(1 - tuning::kStartsByImportance);
     for (uint32_t i = 0; i < lights.size(); ++i)
         if (!lights.bound(i).infinite)
-            shares[i] = (total > 0 ? double(kGuidedStart) * shares[i] / total + double(1 - kGuidedStart) / finite
-                                   : 1.0 / finite);
-    LightSubpath path(scene, importance, settings, sampler, rays, out);
+            shares[i] = total > 0 ? by_importance * shares[i] / total + uniform / finite : 1.0 / finite;
+    return shares;
+}
+
+} // namespace
+
+LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
+                                   Sampler &sampler, const std::atomic<bool> &stop, TraceContext &rays) {
+    LightVertices out;
+    out.medium.directed = scene.medium && scene.medium->g != 0;
+    const LightSet &lights = scene.lights;
+    const std::vector<double> shares = start_shares(lights, importance);
+    LightSubpath subpath(scene, importance, settings, sampler, rays, out);
     const StartRegion camera = scene.camera.start_region();
-    // One systematic draw: light i gets its share of the paths, to within one.
-    double cursor = double(sampler.next_1d()), sum = 0;
-    for (uint32_t i = 0; i < lights.size(); ++i) {
+    // Systematic sampling with one random number: light i starts its share of the subpaths, to within one.
+    double cursor = shares.empty() ? 0 : double(sampler.next_1d()), sum = 0;
+    for (uint32_t i = 0; i < shares.size(); ++i) {
         sum += shares[i] * settings.paths;
         const LightBound &b = lights.bound(i);
-        // A sphere shines to the side on which the camera is; to both where its rays may start on both.
+        // A sphere shines towards the side that the camera is on; towards both where camera rays may start on both.
         const float distance = length(b.center - camera.center);
         const bool both =
             std::holds_alternative<SphereLight>(lights[i]) && std::abs(distance - b.radius) <= camera.radius;
@@ -372,8 +331,8 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
                 continue;
             start->power *= float((both ? 2 : 1) / (shares[i] * settings.paths));
             const float target = max_component(start->power) * importance(b.center);
-            path.trace(*start, std::holds_alternative<PointLamp>(lights[i]), dielectrics_at(scene, start->ray.origin),
-                       target);
+            subpath.trace(*start, std::holds_alternative<PointLamp>(lights[i]),
+                          dielectrics_at(scene, start->ray.origin), target);
         }
     }
     return out;

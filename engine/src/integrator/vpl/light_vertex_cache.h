@@ -1,48 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light vertices shared by all pixels of a pass: when they serve, how many there are, and who prepares them.
+// The light vertex cache (docs/method.md, section 3): light vertices that all pixels of a wave share, and the picks of
+// them for one block of pixels.
 #pragma once
 
 #include "integrator/vpl/block_vertices.h"
+#include "medium/interior_stack.h"
+
+#include <memory>
 
 namespace glimmer {
 
+/// What the pixels of one block share in one wave.
 struct LightVertexBlock final : BlockData {
-    LightVertexBlock(const VplSettings &settings_, BlockVertices &&pool_, const Rectangle &pixels_)
-        : settings(settings_), pool(std::move(pool_)), pixels(pixels_), splats(size_t(pixels.width) * pixels.height) {}
-    /// What the splats of the pass add to a pixel of the block.
+    LightVertexBlock(const VplSettings &settings_, BlockVertices &&vertices_, const Rectangle &pixels_)
+        : settings(settings_), vertices(std::move(vertices_)), pixels(pixels_),
+          splats(size_t(pixels.width) * pixels.height) {}
+    /// Radiance that the splats of the wave add to a pixel of the block.
     const Rgb &splatted(uint32_t x, uint32_t y) const {
         return splats[size_t(y - pixels.y) * pixels.width + (x - pixels.x)];
     }
     VplSettings settings;
-    BlockVertices pool;
+    BlockVertices vertices;
     Rectangle pixels;
     std::vector<Rgb> splats; ///< (height, width)
-    bool unfinished = false; ///< a light path of the pass was broken off
+    bool unfinished = false; ///< a light subpath of the wave was broken off
 };
 
 class LightVertexCache {
   public:
     LightVertexCache(const Scene &scene, const InteriorStack &around_camera);
 
+    /// Traces the light subpaths of a wave.
     std::unique_ptr<const WaveData> prepare_wave(uint64_t seed, uint64_t sample, const std::atomic<bool> &stop,
                                                  TraceContext &rays) const;
-    std::unique_ptr<const BlockData> prepare_block(const WaveData &pass, const Rectangle &block,
+    /// Picks vertices for a block and collects its splats.
+    std::unique_ptr<const BlockData> prepare_block(const WaveData &wave, const Rectangle &block,
                                                    TraceContext &rays) const;
 
   private:
-    std::vector<Vec3f> visible_points(const Rectangle &pixels, uint32_t count, Sampler &sampler,
-                                      TraceContext &rays) const;
-    void set_bounds();
-
     const Scene &scene_;
     InteriorStack around_camera_;
     VplSettings settings_;
 };
 
-/// Null where plain paths take over: no medium that scatters, medium that scatters by a narrow peak (Henyey-Greenstein
-/// beyond g = -0.6 and 0.9, which all but unbounds the connections), a camera within glass, limits on the depth,
-/// nothing finite that shines; medium so dense and white that light wanders through all of the scene, where few of a
-/// path's thousands of vertices are near the camera.
+/// The cache for a scene, or null where plain path tracing takes over (docs/method.md, section 9):
+/// - no medium, or a medium that does not scatter;
+/// - a phase function with too narrow a peak, which all but unbounds the connections;
+/// - a camera within a dielectric, whose rays do not scatter in the medium;
+/// - limits on the depth;
+/// - a medium so dense and white that light wanders through all of the scene;
+/// - no light that light subpaths could start from (all are infinite).
 std::unique_ptr<const LightVertexCache> plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
                                                                 const InteriorStack &around_camera);
 

@@ -2,6 +2,7 @@
 #include "integrator/vpl/splat.h"
 
 #include "camera/camera_sample.h"
+#include "integrator/vpl/tuning.h"
 #include "medium/phase.h"
 #include "sampling/warp.h"
 
@@ -10,8 +11,6 @@
 namespace glimmer {
 
 namespace {
-
-constexpr uint32_t kPoints = 2; // on a beam
 
 /// The crop, widened by the filter.
 FilmRectangle film_reached(const FilmSettings &film) {
@@ -22,11 +21,12 @@ FilmRectangle film_reached(const FilmSettings &film) {
              (float(film.crop_y + film.crop_height) + margin) / height}};
 }
 
-RayInterval seen_part(const Scene &scene, const Ray &beam) {
-    return scene.camera.clip(beam, film_reached(scene.film));
+/// The part of a ray that the film may see. Empty where begin >= end.
+RayInterval range_in_picture(const Scene &scene, const Ray &ray) {
+    return scene.camera.clip(ray, film_reached(scene.film));
 }
 
-/// A point that scatters `power`, which arrives along `direction`.
+/// Splats a point that scatters `power`, which arrives along `direction`.
 void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, const Rgb &power,
                  const VplSettings &settings, Sampler &sampler, TraceContext &rays, std::vector<Splat> &out) {
     const Camera &camera = scene.camera;
@@ -37,7 +37,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, con
     const FilmSettings &film = scene.film;
     const float u = seen->film.x * float(film.width), v = seen->film.y * float(film.height);
     const float half = 0.5f * film.filter_width;
-    // Pixels whose filter may hold the point.
+    // The pixels whose filter may hold the point.
     const float left = std::max(std::floor(u - half), float(film.crop_x)),
                 right = std::min(u + half, float(film.crop_x + film.crop_width) - 0.5f),
                 top = std::max(std::floor(v - half), float(film.crop_y)),
@@ -47,7 +47,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, con
     const float pixel_area = seen->area(float(film.width) * float(film.height)); // if the filter were a point
     const Rgb radiance = power * scene.medium->transmittance(seen->t) *
                          (HenyeyGreenstein{scene.medium->g}.eval(seen->direction, -direction) *
-                          splat_share(camera.footprint(seen->t), seen->direction, direction, settings) / pixel_area);
+                          splat_fraction(camera.footprint(seen->t), seen->direction, direction, settings) / pixel_area);
     if (is_black(radiance))
         return;
     bool visible = false;
@@ -68,27 +68,27 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, con
 
 } // namespace
 
-bool is_seen(const Scene &scene, const Ray &beam) {
-    const RayInterval seen = seen_part(scene, beam);
+bool is_in_picture(const Scene &scene, const Ray &ray) {
+    const RayInterval seen = range_in_picture(scene, ray);
     return seen.begin < seen.end;
 }
 
-void splat(const Scene &scene, const SubpathSegment &beam, const VplSettings &settings, Sampler &sampler,
+void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings &settings, Sampler &sampler,
            TraceContext &rays, std::vector<Splat> &out) {
-    const RayInterval seen = seen_part(scene, beam.ray);
+    const RayInterval seen = range_in_picture(scene, segment.ray);
     if (!(seen.begin < seen.end))
         return;
     const HomogeneousMedium &medium = *scene.medium;
     const float extinction = least_scattering_extinction(medium);
-    for (uint32_t k = 0; k < kPoints; ++k) {
-        const float u = (float(k) + sampler.next_1d()) / kPoints;
-        const PointOnRay at = scene.camera.sample_seen(beam.ray, seen, extinction, u);
-        const float t = at.t, pdf = at.pdf * kPoints;
+    for (uint32_t k = 0; k < tuning::kSplatPoints; ++k) {
+        const float u = (float(k) + sampler.next_1d()) / tuning::kSplatPoints;
+        const PointOnRay at = scene.camera.sample_seen(segment.ray, seen, extinction, u);
+        const float t = at.t, pdf = at.pdf * tuning::kSplatPoints;
         if (!(pdf > 0) || !(t >= 0 && t < kInfinity))
             continue;
-        splat_point(scene, beam.ray.origin + beam.ray.direction * t, beam.ray.direction,
-                    beam.power * medium.sigma_s * medium.transmittance(t) * (beam.remainder / pdf), settings, sampler,
-                    rays, out);
+        splat_point(scene, segment.ray.origin + segment.ray.direction * t, segment.ray.direction,
+                    segment.power * medium.sigma_s * medium.transmittance(t) * (segment.remainder / pdf), settings,
+                    sampler, rays, out);
     }
 }
 

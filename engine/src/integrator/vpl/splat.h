@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light paths that the camera sees: what mirrors, glass and the narrow lobes of metal throw into the medium in front of
-// it. No vertex holds that light (bounded_fraction.h), and a ray from the medium would hit a lobe's light only now and
-// then.
+// Splats (docs/method.md, section 5): light that specular surfaces and the narrow lobes of metal throw into the medium,
+// joined to the camera. No vertex holds that light, and a compensation ray would hit the narrow lobe only rarely.
 #pragma once
 
 #include "integrator/integrator.h"
@@ -11,34 +10,37 @@
 
 namespace glimmer {
 
-/// Radiance that one light path adds to a pixel of the whole picture in its pass.
+/// Radiance that one light subpath adds to a pixel of the whole picture in its wave.
 struct Splat {
     uint32_t x, y;
     Rgb radiance;
 };
 
-/// The share of what arrives at a medium point along `light` from an unheld surface that splats bring, when the camera
-/// sees the point directly, along `seen`, where a part of the film is `footprint` wide (Camera::footprint); rays from
-/// the gathers bring the rest. A beam that passes a perspective camera at the distance h is bright as 1/h wherever it
-/// is seen: no bound on the point's distance alone would bound its splats.
-inline float splat_share(float footprint, const Vec3f &seen, const Vec3f &light, const VplSettings &settings) {
+/// The fraction that splats bring of the remainder that a surface sends along `light` (unit, of flight) to a point of
+/// the medium, which the camera sees along `seen` (unit) where a part of the film is `footprint` wide
+/// (Camera::footprint). Compensation rays bring the rest. The weight is bounding_weight of the footprint times the sine
+/// between the two directions, for a perspective camera the distance h of the light's line from the camera: such a line
+/// is bright as 1/h wherever it is seen, so that no weight in the point's distance alone would bound its splats.
+inline float splat_fraction(float footprint, const Vec3f &seen, const Vec3f &light, const VplSettings &settings) {
     return bounding_weight(footprint * length(cross(seen, light)), settings.splat_clamp_distance);
 }
 
-/// A segment of a light path through the medium that began at an unheld surface.
+/// A segment of a light subpath through the medium that began at a surface.
 struct SubpathSegment {
-    Ray ray; ///< t_max: its end
+    Ray ray; ///< t_max: where the segment ends
     Rgb power;
-    float remainder; ///< the share of the power that no vertex holds
+    float remainder; ///< fraction of the power that connections do not carry (bounded_fraction.h)
 };
 
-/// Whether any of it can be in the picture, whatever stands in the way.
-bool is_seen(const Scene &scene, const Ray &beam);
+/// Whether a ray can lie in the picture at all, whatever stands in the way.
+bool is_in_picture(const Scene &scene, const Ray &ray);
 
-/// Joins points of the beam (Camera::sample_seen) with random points of the lens (Dutre, Lafortune, Willems 1993):
-/// radiance = power sigma_s T / pdf / (4 pi) T / A times the filter, in every pixel whose filter holds the point's
-/// image, where A is the area that the pixel sees there, t^2 d omega for a perspective camera.
-void splat(const Scene &scene, const SubpathSegment &beam, const VplSettings &settings, Sampler &sampler,
+/// Joins points of the segment (Camera::sample_seen) with random points of the lens (Dutre, Lafortune, Willems 1993)
+/// and appends the splats:
+///     radiance = power sigma_s T(segment) / pdf * phase * T(t) / A * filter,
+/// with A the area that a pixel sees there, t^2 d omega for a perspective camera, in every pixel whose filter holds the
+/// image of the point.
+void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings &settings, Sampler &sampler,
            TraceContext &rays, std::vector<Splat> &out);
 
 } // namespace glimmer

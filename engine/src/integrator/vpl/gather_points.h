@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points of the medium that the camera sees. They stand for the gather points of a picture or of a block.
+#pragma once
+
+#include "integrator/integrator.h"
+#include "medium/interior_stack.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace glimmer {
+
+/// Scattering points of the medium on `count` random camera rays through the pixels, each from another stratum of the
+/// distances. Fewer where a ray's segment does not scatter; none where camera rays start within a dielectric.
+std::vector<Vec3f> sample_gather_points(const Scene &scene, const Rectangle &pixels, const InteriorStack &around_camera,
+                                        uint32_t count, Sampler &sampler, TraceContext &rays);
+
+} // namespace glimmer
