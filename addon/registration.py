@@ -1,7 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that the add-on registers, in order. `unregister` goes the same way back."""
+"""Everything that the add-on registers, in order. `unregister` goes the same way back.
+
+Who installed Glimmer as an add-on and as an extension has two packages of it. Only the one that comes first registers:
+the classes of the second would take the place of the first one's.
+"""
 
 import atexit
+import logging
+import sys
+
+import bpy
 
 from . import curve_files, engine, failure, hexfield, moons, operators, properties, reports, ui
 from .native import render
@@ -10,9 +18,21 @@ from .viewport import session as view_session
 
 _PARTS = (properties, reports, failure, curve_files, engine, redraw, operators, hexfield, moons, ui)
 _registered: list[object] = []
+_log = logging.getLogger(__name__)
 
 
 def register() -> None:
+    other = _package_at_work()
+    if other not in (None, __package__):
+        _log.error(
+            "Glimmer is installed twice: %s (%s) is at work, and %s (%s) does nothing; remove one of them in "
+            "Preferences > Add-ons and start Blender again",
+            other,
+            _folder(other),
+            __package__,
+            _folder(__package__),
+        )
+        return
     try:
         for part in _PARTS:
             part.register()
@@ -23,6 +43,19 @@ def register() -> None:
     # The bpy module crashes or hangs at exit while an engine is registered; the executable has freed Blender's side by
     # then, and only our own memory is left.
     atexit.register(unregister if failure.is_module() else _close_all)
+
+
+def _package_at_work() -> str | None:
+    """The package whose render engine is registered."""
+    for cls in bpy.types.RenderEngine.__subclasses__():
+        if getattr(cls, "bl_idname", "") == engine.GlimmerRenderEngine.bl_idname and cls.is_registered:
+            return str(cls.__module__.rpartition(".")[0])
+    return None
+
+
+def _folder(package: str | None) -> str:
+    module = sys.modules.get(package or "")
+    return str(module.__path__[0]) if module is not None else "gone"
 
 
 def _close_all() -> None:

@@ -46,6 +46,53 @@ assert not hasattr(bpy.types.Scene, "glimmer")
 """
 
 
+# Runs inside Blender. argv: the zip, which way it is installed first, a picture's path.
+INSTALL_TWICE = """
+import sys
+import bpy
+
+zip_path, first, picture = sys.argv[sys.argv.index("--") + 1:]
+names = {"extension": "bl_ext.user_default.glimmer", "addon": "glimmer"}
+second = next(how for how in names if how != first)
+
+def install(how):
+    if how == "extension":
+        bpy.ops.extensions.package_install_files(filepath=zip_path, repo="user_default", enable_on_install=True)
+    else:
+        bpy.ops.preferences.addon_install(filepath=zip_path)
+        bpy.ops.preferences.addon_enable(module=names[how])
+
+def render():
+    bpy.context.scene.render.engine = "GLIMMER"
+    bpy.context.scene.glimmer.samples = 2
+    render = bpy.context.scene.render
+    render.resolution_x, render.resolution_y, render.resolution_percentage = 32, 18, 100
+    bpy.ops.render.render()
+
+def owners():
+    types = [*bpy.types.RenderEngine.__subclasses__(), *bpy.types.Panel.__subclasses__()]
+    modules = [cls.__module__ for cls in types if cls.is_registered]
+    return sorted({name for name in names.values() for module in modules if module.startswith(name + ".")})
+
+install(first)
+alone = owners()
+assert len(alone) == 1, alone
+print("SECOND", file=sys.stderr, flush=True)
+install(second)
+assert owners() == alone, owners()
+render()
+bpy.ops.preferences.addon_disable(module=names[second])
+assert owners() == alone, owners()
+render()
+bpy.ops.preferences.addon_disable(module=names[first])
+assert owners() == [] and not hasattr(bpy.types.Scene, "glimmer")
+bpy.ops.preferences.addon_enable(module=names[second])
+assert len(owners()) == 1 and owners() != alone, owners()
+render()
+bpy.data.images["Render Result"].save_render(picture, scene=bpy.context.scene)
+"""
+
+
 @pytest.fixture(scope="session")
 def zip_path() -> Path:
     build.build()
@@ -80,10 +127,13 @@ def test_the_version_is_the_same_everywhere() -> None:
     assert cmake.group(1) == ".".join(map(str, bl_info["version"])) == build.addon_version()
 
 
-def install_and_render(command: list[str], zip_path: Path, how: str, folder: Path) -> None:
+def install_and_render(
+    command: list[str], zip_path: Path, how: str, folder: Path, what: str = INSTALL_AND_RENDER
+) -> str:
+    """What Blender said on the error channel."""
     profile, picture, script = folder / "profile", folder / "picture.png", folder / "install.py"
     (profile / "scripts" / "addons").mkdir(parents=True)
-    script.write_text(f"PROFILE = {str(profile)!r}\n{INSTALL_AND_RENDER}")
+    script.write_text(f"PROFILE = {str(profile)!r}\n{what}")
     env = {key: value for key, value in os.environ.items() if not key.startswith("GLIMMER_")}
     env["BLENDER_USER_RESOURCES"] = str(profile)
     env["BLENDER_USER_CONFIG"] = str(profile / "config")
@@ -98,6 +148,7 @@ def install_and_render(command: list[str], zip_path: Path, how: str, folder: Pat
     )
     assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
     assert picture.read_bytes().startswith(b"\x89PNG")
+    return result.stderr
 
 
 def test_installs_as_an_add_on_in_blender(zip_path: Path, blender: Path, tmp_path: Path) -> None:
@@ -111,3 +162,17 @@ def test_installs_in_the_bpy_module(
     request: pytest.FixtureRequest, zip_path: Path, module: str, tmp_path: Path, how: str
 ) -> None:
     install_and_render([str(request.getfixturevalue(module))], zip_path, how, tmp_path)
+
+
+@pytest.mark.parametrize("module", ["bpy_python", "newest_python"])
+@pytest.mark.parametrize("first", ["addon", "extension"])
+def test_of_two_installed_the_second_says_one_sentence_and_does_nothing(
+    request: pytest.FixtureRequest, zip_path: Path, module: str, tmp_path: Path, first: str
+) -> None:
+    python = str(request.getfixturevalue(module))
+    said = install_and_render([python], zip_path, first, tmp_path, INSTALL_TWICE).partition("SECOND\n")[2].splitlines()
+    names = ("glimmer", "bl_ext.user_default.glimmer")
+    other, own = names if first == "addon" else reversed(names)
+    assert len(said) == 1, said
+    assert said[0].startswith(f"Glimmer is installed twice: {other} (/")
+    assert f" is at work, and {own} (/" in said[0]
