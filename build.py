@@ -200,6 +200,7 @@ PACKAGES = (
     Package("ninja-build", "build", "runs the build"),
     Package("libembree-dev", "build", "ray tracing, headers and library"),
     Package("libopenimageio-dev", "build", "images in and out of the command line"),
+    Package("libopenexr-dev", "build", "its .exr pictures"),
     Package("nlohmann-json3-dev", "build", "scene files"),
     Package("libtinyobjloader-dev", "build", ".obj meshes"),
     Package("libcli11-dev", "build", "options of the command line"),

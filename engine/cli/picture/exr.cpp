@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exr.h"
 
-#include "encode.h"
+#include "atomic_file.h"
 #include "errors.h"
 #include "image_library.h"
 #include "picture_file.h"
 #include "text.h"
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <algorithm>
+#include <thread>
 
 namespace glimmer {
 namespace {
@@ -27,6 +37,68 @@ std::vector<std::string> split(const std::string &text) {
         at = end + 2;
     }
     return result;
+}
+
+/// A file in memory: what OpenEXR writes goes back and forth, what we write to the disk is whole.
+class Bytes : public Imf::OStream {
+  public:
+    explicit Bytes(const std::filesystem::path &path) : Imf::OStream(path.c_str()) {}
+
+    void write(const char bytes[], int count) override {
+        const auto size = static_cast<size_t>(count);
+        bytes_.resize(std::max(bytes_.size(), at_ + size));
+        std::copy_n(bytes, size, bytes_.begin() + static_cast<ptrdiff_t>(at_));
+        at_ += size;
+    }
+    uint64_t tellp() override { return at_; }
+    void seekp(uint64_t at) override { at_ = at; }
+
+    const std::string &text() const { return bytes_; }
+
+  private:
+    std::string bytes_;
+    size_t at_ = 0;
+};
+
+/// The channels, the whole picture as the display window, its part that is there as the data window, and the facts.
+Imf::Header header_of(const Picture &picture) {
+    const auto corner = [](uint32_t x, uint32_t y) {
+        return Imath::V2i(static_cast<int>(x) - 1, static_cast<int>(y) - 1); // the last pixel, not the one behind it
+    };
+    const Imath::V2i first(static_cast<int>(picture.window[0]), static_cast<int>(picture.window[1]));
+    Imf::Header header(Imath::Box2i(Imath::V2i(0, 0), corner(picture.width, picture.height)),
+                       Imath::Box2i(first, corner(picture.window[2], picture.window[3])));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const std::string &channel : picture.channels)
+        header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+    const PictureInfo &info = picture.info;
+    const auto text = [&](const char *name, const std::string &value) {
+        if (!value.empty())
+            header.insert(name, Imf::StringAttribute(value));
+    };
+    text("Software", "Glimmer " + info.version);
+    header.insert("glimmer:spp", Imf::IntAttribute(static_cast<int>(info.samples)));
+    text("glimmer:seed", joined(info.seeds));
+    header.insert("glimmer:seconds", Imf::FloatAttribute(static_cast<float>(info.seconds)));
+    text("glimmer:version", info.version);
+    text("glimmer:scene", info.scene_hash);
+    text("glimmer:integrator", info.integrator);
+    text("glimmer:biased_by", joined(info.biased_by));
+    return header;
+}
+
+void encode(const Picture &picture, Bytes &bytes) {
+    const Imf::Header header = header_of(picture);
+    const size_t pixel = picture.channels.size() * sizeof(float);
+    Imf::FrameBuffer pixels;
+    for (size_t i = 0; i < picture.channels.size(); ++i)
+        pixels.insert(picture.channels[i], Imf::Slice::Make(Imf::FLOAT, picture.pixels.data() + i, header.dataWindow(),
+                                                            pixel, pixel * picture.window_width()));
+    const int threads = static_cast<int>(std::thread::hardware_concurrency()); // for its compression
+    Imf::setGlobalThreadCount(threads);
+    Imf::OutputFile file(bytes, header, threads);
+    file.setFrameBuffer(pixels);
+    file.writePixels(static_cast<int>(picture.window_height()));
 }
 
 /// The attribute's value; T() where it is missing or of another type.
@@ -60,28 +132,15 @@ std::unique_ptr<ImageReader> open_exr(const std::filesystem::path &path) {
 
 } // namespace
 
+// Not by OpenImageIO, whose libraries take longer to load than a small picture to render.
 void write_exr(const Picture &picture, const std::filesystem::path &path) {
-    const PictureInfo &info = picture.info;
-    const ImageHeader header{"openexr",
-                             static_cast<int>(picture.window[0]),
-                             static_cast<int>(picture.window[1]),
-                             static_cast<int>(picture.window_width()),
-                             static_cast<int>(picture.window_height()),
-                             1,
-                             static_cast<int>(picture.width),
-                             static_cast<int>(picture.height),
-                             picture.channels,
-                             "linear",
-                             {{"compression", "zip"},
-                              {"Software", "Glimmer " + info.version},
-                              {"glimmer:spp", static_cast<int>(info.samples)},
-                              {"glimmer:seed", joined(info.seeds)},
-                              {"glimmer:seconds", static_cast<float>(info.seconds)},
-                              {"glimmer:version", info.version},
-                              {"glimmer:scene", info.scene_hash},
-                              {"glimmer:integrator", info.integrator},
-                              {"glimmer:biased_by", joined(info.biased_by)}}};
-    write_image(header, picture.pixels, PixelType::Float, path);
+    Bytes bytes(path);
+    try {
+        encode(picture, bytes);
+    } catch (const std::exception &error) {
+        throw ResultError(path.string() + ": cannot be written: " + one_line(error.what()));
+    }
+    write_file(path, bytes.text());
 }
 
 Picture read_picture(const std::filesystem::path &path) {

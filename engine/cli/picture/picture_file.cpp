@@ -60,7 +60,8 @@ std::string lower_extension(const std::filesystem::path &path) {
 }
 
 void expect_writable(const std::filesystem::path &path) {
-    if (lower_extension(path) != ".pfm")
+    const std::string extension = lower_extension(path);
+    if (extension == ".png" || extension == ".hdr")
         image_io();
 }
 

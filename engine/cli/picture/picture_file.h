@@ -15,8 +15,8 @@ std::string lower_extension(const std::filesystem::path &path);
 /// linear; .png the window's R G B through display_value. Whole or not at all. Throws ResultError.
 void write_picture(const Picture &picture, const std::filesystem::path &path);
 
-/// Opens what write_picture needs, which takes a moment: found missing before the render rather than after it. Throws
-/// ResultError.
+/// Opens what write_picture needs, which takes a moment for .png and .hdr: found missing before the render rather than
+/// after it. Throws ResultError.
 void expect_writable(const std::filesystem::path &path);
 
 /// A picture that write_picture wrote as .exr. Throws InputError "FILE: what".

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""OpenImageIO brings some 250 shared libraries: the command opens them for images, and for nothing else."""
+"""OpenImageIO brings some 250 shared libraries: the command opens them for the images that it alone can read or write,
+and for nothing else. An .exr is written by OpenEXR itself."""
 
 import os
 import shutil
@@ -45,6 +46,7 @@ def test_what_needs_no_image_opens_no_image_library(glimmer_command: Path, tmp_p
         (bad, "-o", tmp_path / "o.exr", "--curve", tmp_path / "o.png"),
         (gone, "-o", tmp_path / "o.exr"),
         (good, "-o", tmp_path / "o.pfm", "--spp", "1"),
+        (good, "-o", tmp_path / "o.exr", "--spp", "1", "--curve", tmp_path / "o.csv"),
     ):
         said = opened(glimmer_command, tmp_path, *arguments)
         assert "OpenImageIO" not in said and "libglimmer_image" not in said, arguments
@@ -55,7 +57,12 @@ def test_images_open_it(glimmer_command: Path, tmp_path: Path) -> None:
     write_image(tmp_path / "sky.exr", np.ones((2, 4, 3), np.float32))
     good = write_scene(tmp_path, furnace(), "good.json")
     sky = write_scene(tmp_path, scene(environment={"image": "sky.exr"}), "sky.json")
-    for arguments in ((good, "-o", tmp_path / "o.png"), (sky, "-o", tmp_path / "o.pfm")):
+    picture = tmp_path / "o.pfm"
+    for arguments in (
+        (good, "-o", tmp_path / "o.png"),
+        (good, "-o", picture, "--curve", picture.with_suffix(".png")),
+        (sky, "-o", picture),
+    ):
         said = opened(glimmer_command, tmp_path, *arguments, "--spp", "1")
         assert "OpenImageIO" in said and "libglimmer_image.so" in said, arguments
 
@@ -73,8 +80,8 @@ def test_a_missing_image_library_is_one_line_before_the_render(moved: Path, tmp_
     library = tmp_path / "lib" / "libglimmer_image.so"
     path = write_scene(tmp_path, furnace())
     assert run(moved, "--version").returncode == 0
-    assert run(moved, path, "-o", tmp_path / "o.pfm", "--spp", "1").returncode == 0
-    endless = run(moved, path, "-o", tmp_path / "o.exr", "--time", "1000000")
+    assert run(moved, path, "-o", tmp_path / "o.exr", "--spp", "1").returncode == 0
+    endless = run(moved, path, "-o", tmp_path / "o.png", "--time", "1000000")
     assert endless.returncode == 2
     assert endless.stderr == (
         f"images can be neither read nor written: {library}: cannot open shared object file: No such file or directory;"
