@@ -25,7 +25,12 @@ HIDDEN = {
 }
 
 # Panels that Blender files under one engine of its own and that apply to every engine.
-BORROWED = {"EEVEE_MATERIAL_PT_context_material", "MATERIAL_PT_viewport", "EEVEE_MATERIAL_PT_viewport_settings"}
+BORROWED = {
+    "EEVEE_MATERIAL_PT_context_material",
+    "EEVEE_MATERIAL_PT_viewport_settings",
+    "MATERIAL_PT_preview",
+    "MATERIAL_PT_viewport",
+}
 
 
 def _panels() -> Iterator[type[bpy.types.Panel]]:

@@ -2,7 +2,7 @@
 
 import bpy
 
-from .panel import GlimmerPanel
+from .panel import GlimmerPanel, draw_node_input
 
 # What of a lamp is rendered, by its type; names that a version of Blender lacks are left out.
 _PROPERTIES = {
@@ -35,9 +35,32 @@ class GLIMMER_PT_light(GlimmerPanel, bpy.types.Panel):
                 layout.prop(light, name, text=text)
 
 
+class GLIMMER_PT_light_nodes(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Nodes"
+    bl_context = "data"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.light is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        light = context.light
+        self.layout.use_property_split = True
+        if light.use_nodes and light.node_tree is not None:
+            draw_node_input(self.layout, light.node_tree, "Surface")
+        else:
+            self.layout.prop(light, "use_nodes", icon="NODETREE")
+
+
+_CLASSES = (GLIMMER_PT_light, GLIMMER_PT_light_nodes)
+
+
 def register() -> None:
-    bpy.utils.register_class(GLIMMER_PT_light)
+    for panel in _CLASSES:
+        bpy.utils.register_class(panel)
 
 
 def unregister() -> None:
-    bpy.utils.unregister_class(GLIMMER_PT_light)
+    for panel in reversed(_CLASSES):
+        bpy.utils.unregister_class(panel)

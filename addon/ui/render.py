@@ -17,6 +17,7 @@ def _limit(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, switch
 class GLIMMER_PT_sampling(GlimmerPanel, bpy.types.Panel):
     bl_label = "Sampling"
     bl_context = "render"
+    bl_order = -1  # above Blender's own, which were registered before
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.glimmer

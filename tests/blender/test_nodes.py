@@ -206,6 +206,9 @@ def test_blenders_own_panels_stay_visible(facts: dict[str, Any]) -> None:
         "EEVEE_MATERIAL_PT_context_material",
         "WORLD_PT_context_world",
         "GLIMMER_PT_sampling",
+        "GLIMMER_PT_depth_of_field",
+        "GLIMMER_PT_light_nodes",
+        "MATERIAL_PT_preview",
     }
     panels = set(facts["registration"]["panels"])
     assert wanted <= panels

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Depth of field. Blender's panels belong to EEVEE and Workbench, and also hold what Glimmer does not render: blades,
+rotation and ratio of the aperture.
+"""
+
+import bpy
+
+from .panel import GlimmerPanel
+
+
+class GLIMMER_PT_depth_of_field(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Depth of Field"
+    bl_context = "data"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.camera is not None
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.camera.dof, "use_dof", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, dof = self.layout, context.camera.dof
+        layout.use_property_split = True
+        layout.active = dof.use_dof
+        layout.prop(dof, "focus_object", text="Focus on Object")
+        if "focus_subtarget" in dof.bl_rna.properties and dof.focus_object and dof.focus_object.type == "ARMATURE":
+            layout.prop_search(dof, "focus_subtarget", dof.focus_object.data, "bones", text="Focus on Bone")
+        distance = layout.column()
+        distance.active = dof.focus_object is None
+        distance.prop(dof, "focus_distance", text="Focus Distance")
+        layout.prop(dof, "aperture_fstop")
+
+
+def register() -> None:
+    bpy.utils.register_class(GLIMMER_PT_depth_of_field)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(GLIMMER_PT_depth_of_field)
