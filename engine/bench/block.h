@@ -11,22 +11,21 @@
 
 namespace glimmer {
 
-/// A scene with one pass and one block of it prepared.
+/// A scene with one wave and one block of it prepared.
 struct BlockWorld {
     BlockWorld(const SceneDescription &description, const Rectangle &pixels_) : scene(description, 0), pixels(pixels_) {
         if (integrator->shares()) {
-            pass = integrator->prepare_wave(1, 0, stop, rays);
-            block = integrator->prepare_block(*pass, pixels, rays);
+            wave = integrator->prepare_wave(1, 0, trace);
+            block = integrator->prepare_block(*wave, pixels, trace);
         }
     }
-    const LightVertexBlock *pool() const { return static_cast<const LightVertexBlock *>(block.get()); }
+    const LightVertexBlock *light_vertices() const { return static_cast<const LightVertexBlock *>(block.get()); }
 
     Scene scene;
     Rectangle pixels;
     std::unique_ptr<const Integrator> integrator = make_path_integrator(scene, {}, {});
-    TraceContext rays;
-    std::atomic<bool> stop{false};
-    std::unique_ptr<const WaveData> pass;
+    TraceContext trace;
+    std::unique_ptr<const WaveData> wave;
     std::unique_ptr<const BlockData> block;
 };
 

@@ -62,15 +62,16 @@ BlockWorld &hazy_field() {
 auto tracer(BlockWorld &w, const PathKernel &kernel) {
     return [&w, kernel, plan = plan_splitting(w.scene, kAllEstimators)](const CameraRay &camera, Sampler &sampler) {
         static constexpr DepthLimits kNoLimits;
-        const PathContext work{w.scene, kNoLimits, kAllEstimators, plan, w.pool(), camera.pixel_x, camera.pixel_y, 1};
-        return kernel.sample(work, camera.ray, {}, sampler, w.rays);
+        const PathContext context{w.scene,        kNoLimits, kAllEstimators, plan, w.light_vertices(), camera.pixel_x,
+                                  camera.pixel_y, 1};
+        return kernel.sample(context, camera.ray, {}, sampler, w.trace);
     };
 }
 
 void add(const std::string &scene, BlockWorld &(*world)(), const PathKernel &kernel) {
     benchmark::RegisterBenchmark(("features/" + scene + "/" + kernel.name).c_str(), [=](benchmark::State &state) {
         BlockWorld &w = world();
-        if (!covers(kernel.features, needed_by(w.scene, {}, w.pool() != nullptr)))
+        if (!covers(kernel.features, needed_by(w.scene, {}, w.light_vertices() != nullptr)))
             return state.SkipWithError("the scene needs features that this kernel has not");
         if (!same_bits(w, tracer(w, kernel), tracer(w, path_kernel(kAllFeatures))))
             return state.SkipWithError("other bits than the full kernel's");

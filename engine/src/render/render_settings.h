@@ -2,7 +2,7 @@
 // What a caller asks of a render.
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/depth_limits.h"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "film/film.h"
-#include "integrator/integrator.h"
+#include "integrator/registry.h"
 #include "render/error_curve.h"
 #include "render/render_settings.h"
 #include "render/sample_faults.h"

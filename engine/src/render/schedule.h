@@ -4,7 +4,7 @@
 // the picture can be judged there. Not locked.
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/wave.h"
 
 #include <cstdint>
 #include <memory>

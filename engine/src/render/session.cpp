@@ -169,8 +169,7 @@ bool Session::run_unlocked(Lock &lock, const Task &task) {
 
 void Session::prepare_wave(uint64_t wave, Lock &lock) {
     std::unique_ptr<const WaveData> data;
-    if (run_unlocked(
-            lock, [&](TraceContext &trace) { data = integrator_->prepare_wave(settings_.seed, wave, stop_, trace); }))
+    if (run_unlocked(lock, [&](TraceContext &trace) { data = integrator_->prepare_wave(settings_.seed, wave, trace); }))
         schedule_.put_wave(wave, std::move(data));
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "film/film.h"
-#include "integrator/integrator.h"
+#include "integrator/registry.h"
 #include "render/changed_tiles.h"
 #include "render/clock.h"
 #include "render/error_curve.h"

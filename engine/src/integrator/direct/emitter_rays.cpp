@@ -36,7 +36,7 @@ uint32_t EmitterRays::rays(uint32_t pixel_x, uint32_t pixel_y) const {
     return scene_.camera.sees_any(discs_, middle) ? rays_ : 0;
 }
 
-Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &counter) const {
+Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &trace) const {
     const auto side = uint32_t(std::lround(std::sqrt(float(rays))));
     const auto strata = float(side);
     Rgb sum;
@@ -45,7 +45,7 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler 
         const Vec2f u = sampler.next_2d();
         const Vec2f u_pixel{(float(i % side) + u.x) / strata, (float(i / side) + u.y) / strata};
         const Ray ray = sample_camera_ray(scene_, pixel_x, pixel_y, u_pixel, sampler.next_2d()).ray;
-        ++counter.rays;
+        ++trace.rays;
         const auto hit = scene_.accel->intersect(ray);
         if (!hit || hit->instance != kNone)
             continue;

@@ -3,7 +3,11 @@
 // elsewhere, and a camera ray alone costs a small part of a sample: pixels that a disc touches get more of them.
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/trace_context.h"
+#include "sampling/sampler.h"
+#include "scene/scene.h"
+
+#include <vector>
 
 namespace glimmer {
 
@@ -18,7 +22,7 @@ class EmitterRays {
     uint32_t rays(uint32_t pixel_x, uint32_t pixel_y) const;
 
     /// The sum over so many rays of the radiance of the spheres that they meet, stratified over filter and pixel.
-    Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &counter) const;
+    Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &trace) const;
 
   private:
     const Scene &scene_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All steps of the path integrator together, to be compiled for a set of features.
+// All steps of the path integrator together, to be compiled for a set of features. Only kernels.cpp, and benchmarks of
+// single kernels, may include this.
 #pragma once
 
 #include "integrator/path/kernels.h"
@@ -11,15 +12,16 @@
 
 namespace glimmer {
 
-/// Flattened: every call into a header is inlined, which the compiler would not do for so large a function by itself.
+/// Flattened: every call of an inline function is inlined, which the compiler would not do for so large a function by
+/// itself.
 template <KernelFeatures F>
-[[gnu::flatten]] FilmSample sample_path(const PathContext &work, const Ray &ray, const InteriorStack &glass,
-                                        Sampler &sampler, TraceContext &rays) {
+[[gnu::flatten]] FilmSample sample_path(const PathContext &context, const Ray &ray, const InteriorStack &interior,
+                                        Sampler &sampler, TraceContext &trace) {
     PathState<F> camera;
     camera.ray = ray;
-    if constexpr (F.glass)
-        camera.glass = glass;
-    return PathSample<F>(work, sampler, rays).run(camera);
+    if constexpr (F.dielectrics)
+        camera.interior = interior;
+    return PathSample<F>(context, sampler, trace).run(camera);
 }
 
 template <KernelFeatures F>

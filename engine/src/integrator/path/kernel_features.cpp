@@ -3,16 +3,16 @@
 
 namespace glimmer {
 
-KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &options, bool shares) {
+KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares) {
     KernelFeatures f;
     f.medium = scene.medium.has_value();
     f.medium_walks = f.medium && scene.medium->scatters() && !shares;
     f.surfaces = scene.has_surfaces;
-    f.glass = scene.has_dielectrics;
+    f.dielectrics = scene.has_dielectrics;
     f.bvh = !scene.accel->without_bvh();
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         f.other_lights |= !std::holds_alternative<SphereLight>(scene.lights[i]);
-    f.flags = !(options == kAllEstimators);
+    f.estimator_flags = !(flags == kAllEstimators);
     return f;
 }
 

@@ -18,10 +18,10 @@ struct KernelFeatures {
     bool medium = false;
     bool medium_walks = false; ///< medium that scatters, its light by paths alone: no vertices are shared
     bool surfaces = false;     ///< anything that scatters light, not only spheres that shine
-    bool glass = false;
-    bool bvh = false;          ///< meshes, or more spheres than are tried one by one
-    bool other_lights = false; ///< than spheres that shine
-    bool flags = false;        ///< not all estimators are at work
+    bool dielectrics = false;
+    bool bvh = false;             ///< meshes, or more spheres than are tried one by one
+    bool other_lights = false;    ///< than spheres that shine
+    bool estimator_flags = false; ///< not all estimators are at work
 
     /// Lights are met by chance where light sampling could have found them.
     constexpr bool meets_lights() const { return surfaces || medium_walks; }
@@ -34,14 +34,14 @@ struct FeatureText {
     const char *left_out;
 };
 inline constexpr std::array<FeatureText, 7> kFeatureTexts{{
-    {&KernelFeatures::medium, "fog", "no fog: no distance sampling, no transmittance"},
-    {&KernelFeatures::medium_walks, "walks in fog", ""},
+    {&KernelFeatures::medium, "medium", "no fog: no distance sampling, no transmittance"},
+    {&KernelFeatures::medium_walks, "walks in the medium", ""},
     {&KernelFeatures::surfaces, "surfaces", "no surface that scatters: no scattering at surfaces"},
-    {&KernelFeatures::glass, "glass", "no glass: no search for the bodies around the camera"},
+    {&KernelFeatures::dielectrics, "dielectrics", "no glass: no search for the bodies around the camera"},
     {&KernelFeatures::bvh, "BVH", "a few spheres alone: no BVH"},
     {&KernelFeatures::other_lights, "other lights",
      "no lights but spheres that shine: no lamps, shining meshes, suns or sky"},
-    {&KernelFeatures::flags, "switches", ""},
+    {&KernelFeatures::estimator_flags, "estimator flags", ""},
 }};
 inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true};
 
@@ -55,7 +55,7 @@ constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {
 static_assert(sizeof(KernelFeatures) == kFeatureTexts.size(), "a feature that no scene would be asked for");
 
 /// shares: light vertices serve (plan_light_vertex_cache).
-KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &options, bool shares);
+KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares);
 
 /// What of the engine such a scene has no use for, in words.
 std::vector<std::string> left_out(const KernelFeatures &needed);

@@ -12,21 +12,22 @@ namespace glimmer {
 
 template <KernelFeatures F>
 void PathSample<F>::sample_lights_along(const State &state, float end, const HomogeneousMedium &medium, bool split) {
-    if (scene_.lights.size() == 0)
+    if (scene().lights.size() == 0)
         return;
-    const bool camera = state.depth == 0, all = state.direct_view();
+    const bool camera = state.depth == 0, several = state.seen_directly();
     const HenyeyGreenstein phase{medium.g};
     const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
     float looked = 1;
-    if (!all && pooled()) { // short segments between plates scatter next to nothing: seldom worth a look
+    if (!several &&
+        has_light_vertices()) { // short segments between plates scatter next to nothing: seldom worth a look
         looked =
             survival((Rgb(1) - medium.transmittance(end)) * state.beta, state.rr_scale, origin, kRouletteScaleInMedium);
         if (!(looked > 0) || (looked < 1 && sampler_.next_1d() >= looked))
             return;
     }
-    for (uint32_t i = 0; i < choices(all); ++i) {
-        const LightChoice choice = choose(i, all, origin, direction, end);
-        if (scene_.lights.bound(choice.index).infinite)
+    for (uint32_t i = 0; i < choices(several); ++i) {
+        const LightChoice choice = choose(i, several, origin, direction, end);
+        if (scene().lights.bound(choice.index).infinite)
             continue; // an endless medium lets nothing through from there
         const EquiangularTable line = equiangular_table(choice.index, origin, direction, end);
         const DistanceSample at = line.sample(camera ? sampler_.stratified_1d(dimension(Dimension::segment_distance, i))
@@ -45,7 +46,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
         if (is_black(unshadowed) || occluded(x, *light))
             continue;
         float weight = 1;
-        if (!light->delta && !pooled()) { // a pool's gathers are not lit by chance
+        if (!light->delta && !has_light_vertices()) { // a pool's gathers are not lit by chance
             float p_distance =
                 split ? collision_pdf(medium, state.beta, end, at.t) : free_flight_pdf(medium, state.beta, at.t);
             if (p_distance > 0) { // of the paths that scatter there roulette leaves this part
@@ -54,8 +55,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
-        const Rgb value = state.beta * unshadowed * (weight / looked);
-        (state.path_class == PathClass::surface ? result_.indirect : result_.medium) += value;
+        aov_of_scattering(state, PathClass::medium) += state.beta * unshadowed * (weight / looked);
     }
 }
 
@@ -87,7 +87,7 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Homog
     State next = state;
     next.beta *= weight;
     const Vec3f x = state.ray.origin + state.ray.direction * t;
-    const bool along = lights_along(state);
+    const bool along = samples_lights_along(state);
     if (!along)
         sample_light_in_medium(next, x, medium, true);
     else // roulette is part of how light is met by chance: else thin medium keeps a share of it for one sample in
@@ -100,16 +100,16 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Homog
         state.ray.direction,
         camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction)) : sampler_.next_2d());
     next.ray = {x, s.direction};
-    next.origin = {ScatterKind::medium,
-                   state.direct_view(),
-                   along,
-                   s.pdf,
-                   x,
-                   {state.ray.origin, state.ray.direction, end, t, pdf}};
+    next.previous = {ScatterKind::medium,
+                     state.seen_directly(),
+                     along,
+                     s.pdf,
+                     x,
+                     {state.ray.origin, state.ray.direction, end, t, pdf}};
     ++next.depth;
     ++next.scatter;
     next.specular_depth = 0;
-    if (state.direct_view())
+    if (state.seen_directly())
         next.path_class = PathClass::medium;
     ++next.depth_since_first;
     push(next);
@@ -118,7 +118,7 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Homog
 template <KernelFeatures F>
 void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, const HomogeneousMedium &medium,
                                            bool by_chance) {
-    if (scene_.lights.size() == 0)
+    if (scene().lights.size() == 0)
         return;
     const LightChoice choice = choose(0, false, x);
     const auto light = sample_light(choice.index, x, sampler_.next_2d());
@@ -130,8 +130,7 @@ void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, c
     if (is_black(unshadowed) || occluded(x, *light))
         return;
     const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);
-    const Rgb value = state.beta * unshadowed * weight;
-    (state.path_class == PathClass::surface ? result_.indirect : result_.medium) += value;
+    aov_of_scattering(state, PathClass::medium) += state.beta * unshadowed * weight;
 }
 
 } // namespace glimmer

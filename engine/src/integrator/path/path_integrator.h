@@ -4,13 +4,17 @@
 // one from the surface behind.
 #pragma once
 
+#include "integrator/depth_limits.h"
 #include "integrator/integrator.h"
 #include "integrator/path/estimator_flags.h"
+#include "scene/scene.h"
+
+#include <memory>
 
 namespace glimmer {
 
 /// full_kernel: the one with all features; else the least that the scene can do with. Both give the same bits.
 std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
-                                                       const EstimatorFlags &options, bool full_kernel = false);
+                                                       const EstimatorFlags &flags, bool full_kernel = false);
 
 } // namespace glimmer

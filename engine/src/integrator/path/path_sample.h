@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The work on one camera sample of the path integrator. Its steps stand in a file each: path_segment.h (one segment,
-// and light met by chance), path_fog.h, path_surface.h, path_vertices.h (light vertices shared by all pixels).
+// The work on one camera sample of the path integrator. `follow` in segment.inl is the table of contents; the steps
+// stand in a file each:
+//   segment.inl     one segment: what ends it, and the emission that it meets
+//   medium.inl      scattering in the medium along it
+//   vpl_gather.inl  light scattered more than once, from the light vertices of the wave (../vpl)
+//   surface.inl     scattering at its end
+//   pixel_ris.inl   direct light of what the camera sees, resampled among several points of the pixel
+// They are compiled together, for several sets of features, by kernel.inl.
 #pragma once
 
 #include "integrator/path/kernels.h"
 #include "integrator/path/path_state.h"
+#include "integrator/path/tuning.h"
 #include "integrator/roulette.h"
 #include "light/equiangular_table.h"
 #include "sampling/dimensions.h"
@@ -14,19 +21,7 @@
 
 namespace glimmer {
 
-inline constexpr uint32_t kAllLights = 16;    // up to here every light is sampled at what the camera sees
-inline constexpr uint32_t kManyLights = 4;    // beyond, so many choices
-inline constexpr uint32_t kRisCandidates = 4; // compete for being lit where bevels glint
-inline constexpr size_t kBranches =
-    24; // unfinished branches of one camera sample; beyond, segments are no longer split
-
-static_assert(kAllLights <= dimension_count(Dimension::segment_distance) &&
-              kAllLights <= dimension_count(Dimension::segment_light) &&
-              kAllLights <= dimension_count(Dimension::surface_light));
-static_assert(kManyLights <= kAllLights);
-static_assert(kRisCandidates <= dimension_count(Dimension::candidate_film));
-
-/// The closures of a segment's end, kept likewise.
+/// The closures of a segment's end, kept from sample to sample so that shading allocates nothing.
 inline ClosureArena &thread_arena() {
     thread_local ClosureArena arena;
     return arena;
@@ -44,12 +39,10 @@ class PathSample {
   public:
     using State = PathState<F>;
 
-    PathSample(const PathContext &work, Sampler &sampler, TraceContext &rays)
-        : scene_(work.scene), limits_(work.limits), flags_(work.options), plan_(work.plan), pool_(work.pool),
-          pixel_x_(work.pixel_x), pixel_y_(work.pixel_y), seen_part_(work.primary_weight), sampler_(sampler),
-          rays_(rays) {
-        if (F.medium && scene_.medium) {
-            const Rgb &s = scene_.medium->sigma_t;
+    PathSample(const PathContext &context, Sampler &sampler, TraceContext &trace)
+        : context_(context), sampler_(sampler), trace_(trace) {
+        if (F.medium && scene().medium) {
+            const Rgb &s = scene().medium->sigma_t;
             sigma_ = std::min(s.r, std::min(s.g, s.b));
         }
     }
@@ -58,10 +51,10 @@ class PathSample {
         stack_.clear();
         push(camera);
         if constexpr (F.surfaces)
-            if (plan_.pixel_ris)
+            if (context_.plan.pixel_ris)
                 pixel_ris();
-        uint64_t vertices = 0;
-        while (!stack_.empty() && ++vertices < kMaxVertices && (vertices % kCancelCheckInterval || !rays_.stopped())) {
+        WalkGuard guard(trace_);
+        while (!stack_.empty() && guard.goes_on()) {
             State next = stack_.back();
             stack_.pop_back();
             follow(next);
@@ -71,170 +64,200 @@ class PathSample {
     }
 
   private:
-    // -- One segment
-    // -----------------------------------------------------------------------------------------------------
-    void follow(State &state);
-    const EstimatorFlags &options() const {
-        if constexpr (F.flags)
-            return flags_;
+    const Scene &scene() const { return context_.scene; }
+    const EstimatorFlags &flags() const {
+        if constexpr (F.estimator_flags)
+            return context_.flags;
         else
             return kAllEstimators;
     }
-    /// Of the segment; null where there is none.
-    const HomogeneousMedium *medium_of(const State &state) const {
-        return F.medium && scene_.medium && state.glass.empty() ? &*scene_.medium : nullptr;
-    }
-    /// Whether the medium's light comes from the pool; asked only where medium scatters.
-    bool pooled() const { return !F.medium_walks || pool_; }
 
-    // -- Light vertices
-    // --------------------------------------------------------------------------------------------------
-    /// Points in the medium of the segment that are joined to the pool; several where the camera sees it directly.
-    void gather_along(const State &state, float end, const HomogeneousMedium &medium);
-    /// All light that reaches state.ray.origin scattered, as the medium scatters it there: from the pool, and by a
-    /// short ray for what the pool's bounded connections leave out: false where that ends. `scale`: the point is one of
-    /// so many. `t`: from where the camera's ray starts, 0 off it, where no splats are.
-    bool gather(State &state, float scale, float t, float roulette_scale);
-    /// The share 1 - w(d) of the vertex that a ray from a gather meets; beyond, what no vertex holds
-    /// (bounded_fraction.h).
-    void compensate(State &state, const HomogeneousMedium &medium);
-    /// The largest transmittance of a channel as far as absorption goes.
+    // One segment
+
+    void follow(State &state);
+    /// The medium along the segment; null where there is none.
+    const HomogeneousMedium *medium_of(const State &state) const {
+        return F.medium && scene().medium && state.interior.empty() ? &*scene().medium : nullptr;
+    }
+    /// Transmittance as far as absorption alone goes, of the channel that is absorbed least.
     static float least_absorbed(const HomogeneousMedium &medium, float t) {
         return std::exp(-optical_depth(std::min(medium.sigma_a.r, std::min(medium.sigma_a.g, medium.sigma_a.b)), t));
     }
 
-    // -- Light met by chance
-    // ---------------------------------------------------------------------------------------------
+    // The AOV that light counts for
+
+    /// A path's first scattering decides; light that reaches a first surface straight from a light is `direct`.
+    Rgb &light_aov(PathClass path_class, bool direct) {
+        switch (path_class) {
+        case PathClass::none:
+            return result_.emission;
+        case PathClass::medium:
+            return result_.medium;
+        case PathClass::surface:
+            break;
+        }
+        return direct ? result_.direct : result_.indirect;
+    }
+    /// For emission that the segment meets.
+    Rgb &aov_of_emission(const State &state) { return light_aov(state.path_class, state.depth_since_first == 1); }
+    /// For light that a vertex at the segment's end, or on it, scatters along it.
+    Rgb &aov_of_scattering(const State &state, PathClass vertex) {
+        return state.seen_directly() ? light_aov(vertex, true) : light_aov(state.path_class, false);
+    }
+
+    // Light vertices
+
+    /// Whether light that was scattered before reaches the medium by light vertices. Only asked where it scatters.
+    bool has_light_vertices() const { return !F.medium_walks || context_.light_vertices; }
+    /// Samples gather points in the medium along the segment, several where the camera sees it, and gathers at each.
+    void gather_along(const State &state, float end, const HomogeneousMedium &medium);
+    /// Adds the light that the medium at state.ray.origin scatters back along the ray after it was scattered before:
+    /// the bounded connections to the light vertices now, what they leave out by the compensation ray that `state`
+    /// becomes. False if roulette ended it. points: the number of gather points of the segment. t: the distance of the
+    /// point from where the camera's ray starts, 0 where the point is not on that ray and so no splats count.
+    bool gather(State &state, float points, float t, float roulette_scale);
+    /// Follows a compensation ray to the next vertex.
+    void compensate(State &state, const HomogeneousMedium &medium);
+
+    // Emission that a segment meets
+
     void add_emission(const State &state, const Hit &hit, const Interaction &surface, const Rgb &emission,
                       const HomogeneousMedium *medium);
     void add_lamps(const State &state, float end, const HomogeneousMedium *medium);
     void add_infinity(const State &state, const HomogeneousMedium *medium);
-    void add_seen(const State &state, const Rgb &radiance, float distance, const HomogeneousMedium *medium);
-    /// False only where it certainly does not.
+    void add_emitted(const State &state, const Rgb &radiance, float distance, const HomogeneousMedium *medium);
+    /// Whether the ray could meet a light; false only where it certainly does not.
     bool may_meet_light(const Ray &ray) const;
-    /// The weight of a light met by chance against having been sampled from the vertex before.
+    /// The weight of emission met at the end of a segment against light sampling at, or before, its beginning.
     float emission_mis_weight(const State &state, uint32_t light, uint32_t triangle, float distance,
                               float cosine) const;
 
-    // -- Choice of lights: the expected number of samples of a light takes the place of its probability --------
-    /// Whether light is sampled along this segment, or at the collision that ends it.
-    bool lights_along(const State &state) const {
-        return state.direct_view() ? options().segment_lights : options().deep_segment_lights;
+    // Choice of lights. `several`: a place that the camera sees, where all lights are sampled, or several choices.
+
+    /// Whether light is sampled along this segment, or else at the point where the path scatters on it.
+    bool samples_lights_along(const State &state) const {
+        return state.seen_directly() ? flags().segment_lights : flags().deep_segment_lights;
     }
-    bool every_light(bool all) const { return all && options().all_lights && scene_.lights.size() <= kAllLights; }
-    uint32_t choices(bool all) const {
-        return every_light(all) ? scene_.lights.size() : all && options().all_lights ? kManyLights : 1;
+    bool every_light(bool several) const {
+        return several && flags().all_lights && scene().lights.size() <= kMaxLightsSampledEach;
     }
-    /// The i-th choice at a place: x, or the segment (origin, direction, end).
+    uint32_t choices(bool several) const {
+        return every_light(several) ? scene().lights.size() : several && flags().all_lights ? kLightsChosenOfMany : 1;
+    }
+    /// The i-th choice of a light at a place: a point, or a segment (origin, direction, end). Its `probability` is the
+    /// expected number of samples of that light there.
     template <class... Place>
-    LightChoice choose(uint32_t i, bool all, const Place &...place) {
-        if (every_light(all))
+    LightChoice choose(uint32_t i, bool several, const Place &...place) {
+        if (every_light(several))
             return {i, 1};
-        const float u = sampler_.next_1d(), n = float(scene_.lights.size());
-        LightChoice choice = options().guided_choice ? scene_.lights.choose(place..., sigma_, u)
-                                                     : LightChoice{std::min(uint32_t(u * n), uint32_t(n) - 1), 1 / n};
-        choice.probability *= float(choices(all));
+        const float u = sampler_.next_1d(), n = float(scene().lights.size());
+        LightChoice choice = flags().guided_choice ? scene().lights.choose(place..., sigma_, u)
+                                                   : LightChoice{std::min(uint32_t(u * n), uint32_t(n) - 1), 1 / n};
+        choice.probability *= float(choices(several));
         return choice;
     }
+    /// The same number for a given light.
     template <class... Place>
-    float expected_samples(bool all, uint32_t light, const Place &...place) const {
-        if (every_light(all))
+    float expected_samples(bool several, uint32_t light, const Place &...place) const {
+        if (every_light(several))
             return 1;
-        const float probability = options().guided_choice ? scene_.lights.probability(light, place..., sigma_)
-                                                          : 1 / float(scene_.lights.size());
-        return float(choices(all)) * probability;
+        const float probability = flags().guided_choice ? scene().lights.probability(light, place..., sigma_)
+                                                        : 1 / float(scene().lights.size());
+        return float(choices(several)) * probability;
     }
     std::optional<LightSample> sample_light(uint32_t light, const Vec3f &x, Vec2f u) const {
         if constexpr (F.other_lights)
-            return glimmer::sample_light(scene_.lights[light], x, u);
+            return glimmer::sample_light(scene().lights[light], x, u);
         else
-            return glimmer::sample_light(std::get<SphereLight>(scene_.lights[light]), x, u);
+            return glimmer::sample_light(std::get<SphereLight>(scene().lights[light]), x, u);
     }
     EquiangularTable equiangular_table(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
-        const LightBound &b = scene_.lights.bound(light);
-        return {*scene_.medium, origin, direction, end, b.center, b.radius};
+        const LightBound &b = scene().lights.bound(light);
+        return {*scene().medium, origin, direction, end, b.center, b.radius};
     }
 
-    // -- Fog
-    // -------------------------------------------------------------------------------------------------------------
-    /// The light that the medium scatters once into the segment.
+    // The medium
+
+    /// Adds the light of the scene's lights that the medium scatters once into the segment. split: a path goes on from
+    /// within the segment as well as from its end.
     void sample_lights_along(const State &state, float end, const HomogeneousMedium &medium, bool split);
-    /// One path that goes on from within the segment, given that it scatters there.
+    /// Lets one path go on from within the segment, as it is given that it scatters there.
     void split_into_medium(const State &state, float end, const HomogeneousMedium &medium);
-    /// True when the path scattered before the surface; else its throughput is that of a path that passed.
+    /// Free flight along the segment. True when the path scattered before its end; else the throughput is that of a
+    /// path that passed.
     bool fly_into_medium(State &state, float end, const HomogeneousMedium &medium);
+    /// Lets the path go on from a scattering point at t, sampled with density `pdf`.
     void scatter_in_medium(const State &state, float end, const HomogeneousMedium &medium, float t, const Rgb &weight,
                            float pdf);
-    /// One light at a collision; by_chance: against the phase function that goes on from there and may meet it too.
+    /// Adds the light of one light at a scattering point. by_chance: the path that goes on from there may meet the same
+    /// light by chance, so both are weighted against each other.
     void sample_light_in_medium(const State &state, const Vec3f &x, const HomogeneousMedium &medium, bool by_chance);
 
-    // -- Surfaces
-    // --------------------------------------------------------------------------------------------------------
-    /// The light straight from lights on what the camera sees first, at one of several points of the pixel.
+    // Surfaces
+
+    /// Adds the light straight from lights on what the camera sees first, at one of several points of the pixel.
     void pixel_ris();
     void light_surface(const State &state, const Interaction &surface, const Shading &shading);
-    /// A surface as it is seen along a ray. All materials but glass are two-sided: both normals turn to the viewer.
+    /// A surface as it is seen along a ray. All materials but dielectrics are two-sided: both normals are turned to the
+    /// side that the ray comes from.
     struct OrientedSurface {
         Frame frame;     ///< about the normal that it is shaded with
         Vec3f geometric; ///< the true normal
-        Vec3f wo;        ///< to the viewer, in the frame
+        Vec3f wo;        ///< back along the ray, in the frame
     };
-    static std::optional<OrientedSurface> oriented(const Interaction &surface, const Vec3f &direction);
-    /// Its closures last until the next segment is followed.
+    static std::optional<OrientedSurface> orient(const Interaction &surface, const Vec3f &direction);
+    /// The closures and the emission of a surface along a ray; they last until the next segment is followed.
     Shading shade(Interaction &surface, const Ray &ray) {
-        return scene_.materials.shade(surface, {-ray.direction}, arena_);
+        return scene().materials.shade(surface, {-ray.direction}, arena_);
     }
     void note_first_surface(const Interaction &surface);
-    /// What of a surface is left to scatter: held, where splats bring the rest; unheld, where light vertices have
-    /// brought theirs (bounded_fraction.h).
+    /// The part of a BSDF (bounded_fraction.h) that is still to be scattered: its bounded fraction where splats bring
+    /// the rest, the remainder where light vertices have brought the bounded fraction.
     enum class Lobes { all, bounded, remainder };
     static float fraction_of(Lobes lobes, float bounded) {
         return lobes == Lobes::all ? 1 : lobes == Lobes::bounded ? bounded : 1 - bounded;
     }
     void scatter_at_surface(State &state, const Interaction &surface, Bsdf bsdf, Lobes lobes = Lobes::all);
-    /// Where lights are sampled from: the surface, but on the viewer's side for certain where it is an emissive sphere,
-    /// which would light its own outside from a point that rounding put beneath it, and not its inside from one above.
+    /// Where lights are sampled from. For an emissive sphere that is a point on the viewer's side for certain: rounding
+    /// can put the position itself inside, where the sphere would light its own outside, or outside, where it would not
+    /// light its inside.
     Vec3f light_sampling_origin(const Interaction &surface, const Vec3f &geometric) const {
-        const bool shining_sphere = surface.body >= scene_.accel->instances().size() &&
-                                    !is_black(scene_.materials.bounds(surface.material).emission);
-        return shining_sphere ? surface.origin_towards(geometric) : surface.position;
+        const bool emissive_sphere = surface.body >= scene().accel->instances().size() &&
+                                     !is_black(scene().materials.bounds(surface.material).emission);
+        return emissive_sphere ? surface.origin_towards(geometric) : surface.position;
     }
-    /// The light of `branches` samples of the BSDF comes in beside it.
+    /// Adds the light of the scene's lights at a surface, weighted against `branches` BSDF samples that go on.
     void sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf,
-                          const OrientedSurface &surface_frame, uint32_t branches, Lobes lobes);
-    /// On along a sample of a rough lobe, of that density per solid angle; of a mirror or glass.
+                          const OrientedSurface &oriented_surface, uint32_t branches, Lobes lobes);
+    /// Turns the path into one that leaves a rough lobe along wi, sampled with density `pdf` per solid angle.
     void leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi, float pdf);
+    /// Turns the path into one that leaves a mirror or a dielectric along wi.
     void leave_specular(State &state, const Interaction &surface, const Vec3f &wi);
     void cross_dielectric(State &state, const Interaction &surface, const Material &material);
 
-    // -- Shared
-    // ----------------------------------------------------------------------------------------------------------
+    // Rays and roulette
+
     std::optional<Hit> intersect(const Ray &ray) {
-        ++rays_.rays;
-        return F.bvh ? scene_.accel->intersect(ray) : scene_.accel->intersect_few(ray);
+        ++trace_.rays;
+        return F.bvh ? scene().accel->intersect(ray) : scene().accel->intersect_few(ray);
     }
-    /// `moved`: how far the origin was moved off its surface at most. A triangle that shines must not shadow itself, so
-    /// the ray ends short of it by all errors of both ends, seen along its plane.
-    bool occluded(const Vec3f &origin, const LightSample &light, float moved = 0);
-    /// Russian roulette with survival min(1, spared * weight): a ceiling below 1 would let the weights of high albedos
-    /// grow without bound. spared: see roulette.h.
+    /// Whether something stands between a point and a light sample. origin_offset: how far the origin was moved off its
+    /// surface at most. An emissive triangle must not shadow itself: the ray ends short of it by the errors of both
+    /// ends, as they are seen along its plane.
+    bool occluded(const Vec3f &origin, const LightSample &light, float origin_offset = 0);
+    /// Russian roulette, see roulette.h. The probability is capped at 1: a cap below that would let the weights of
+    /// paths between surfaces of high albedo grow without bound.
     bool survives(State &state, const Vec3f &x, float roulette_scale);
-    /// The chance of that, for a path of throughput beta at x.
+    /// The probability of that for a path of throughput beta at x.
     float survival(const Rgb &beta, float rr_scale, const Vec3f &x, float roulette_scale) const;
-    /// The same for one more mirror or glass.
+    /// Roulette of one more mirror or dielectric.
     bool survives_specular(State &state);
     void push(const State &state) { stack_.push_back(state); }
 
-    const Scene &scene_;
-    const DepthLimits &limits_;
-    const EstimatorFlags &flags_;
-    const SplittingPlan &plan_;
-    const LightVertexBlock *pool_; ///< null: plain paths
-    uint32_t pixel_x_, pixel_y_;
-    float seen_part_; ///< of the radiance of a sphere that the camera's own ray meets; other rays bring the rest
+    const PathContext context_; ///< a copy: what it refers to is one step away
     Sampler &sampler_;
-    TraceContext &rays_;
-    float sigma_ = 0; ///< smallest extinction of the channels
+    TraceContext &trace_;
+    float sigma_ = 0; ///< extinction of the channel that has the least, for the choice of lights
     FilmSample result_;
     ClosureArena &arena_ = thread_arena();
     std::vector<State> &stack_ = thread_stack<State>(); ///< branches still to follow

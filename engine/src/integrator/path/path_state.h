@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A camera path on its way along one segment, and what light sampling could have done at the vertex where the segment
-// began. Stacks of paths are copied a lot: parts that a kernel has no use for take no room.
+// began. Stacks of paths are copied a lot, so the parts that a kernel has no use for take no room.
 #pragma once
 
 #include "geometry/ray.h"
@@ -12,69 +12,74 @@
 
 namespace glimmer {
 
-/// In place of a part that a kernel has no use for.
+/// Stands in for a part of the state that a kernel has no use for; the number keeps two of them apart.
 template <int>
 struct Absent {};
-struct NoGlass {
+/// Stands in for the interior stack where a scene has no dielectrics: a path is never within one.
+struct NoInterior {
     static constexpr bool empty() { return true; }
 };
 
-/// How the direction of a segment came about.
+/// What sampled the direction of a segment.
 enum class ScatterKind : uint8_t {
-    specular, ///< the camera, a mirror, glass: light sampling cannot do the same
-    surface,  ///< a BSDF sample at `position`
-    medium    ///< a phase sample at `position`, which was itself sampled on a segment
+    specular, ///< the camera, a mirror or a dielectric: light sampling cannot sample the same
+    surface,  ///< the BSDF at `position`
+    medium    ///< the phase function at `position`, which was itself sampled on a segment
 };
 
-/// The segment in the medium that a collision was sampled on, and the density of its distance there.
+/// The segment in the medium on which the last scattering point was sampled, and how.
 struct PreviousSegment {
     Vec3f origin, direction;
-    float end = 0, distance = 0, distance_pdf = 0;
+    float end = 0;          ///< its length
+    float distance = 0;     ///< of the scattering point from the origin
+    float distance_pdf = 0; ///< per length, roulette included
 };
 
-/// For the multiple importance sampling of a light that the segment meets.
+/// The vertex where the path's segment began, as multiple importance sampling needs it when the segment meets a light.
 template <KernelFeatures F>
 struct PreviousVertex {
     ScatterKind kind = ScatterKind::specular;
-    bool all_lights = false; ///< light sampling took every light there, not one
-    bool along = false;      ///< medium: light was sampled along the segment, not at `position`
-    float pdf = 0;           ///< of the direction, per solid angle
+    bool several_lights = false; ///< light sampling there was for all lights, or for several choices, not for one
+    bool along_segment = false;  ///< medium: light was sampled along `segment`, not at `position`
+    float pdf = 0;               ///< of the direction, per solid angle
     Vec3f position;
-    [[no_unique_address]] std::conditional_t<F.medium_walks, PreviousSegment, Absent<0>> segment; ///< medium
+    [[no_unique_address]] std::conditional_t<F.medium_walks, PreviousSegment, Absent<0>> segment; ///< medium alone
 };
 
-/// What scattered first, specular surfaces apart.
+/// What a path scattered at first, mirrors and dielectrics aside: it decides which AOVs its light counts for.
 enum class PathClass : uint8_t { none, surface, medium };
 
-/// Lights that a segment meets by chance.
+/// What becomes of the emission that a segment meets.
 enum class EmissionMode : uint8_t {
-    mis,
-    skip, ///< other samples bring all of their light
-    only  ///< the segment is wanted for nothing else
+    mis,  ///< it counts with its weight against light sampling
+    skip, ///< it does not count: other samples bring all of it
+    only  ///< nothing else of the segment counts: the path ends there
 };
 
 template <KernelFeatures F>
 struct PathState {
     Ray ray;
     Rgb beta{1}; ///< throughput
-    float rr_scale =
-        1; ///< the part of beta that roulette must not see: absorption before the first scattering, 1/eta^2 of glass
-    [[no_unique_address]] std::conditional_t<F.meets_lights(), PreviousVertex<F>, Absent<1>> origin;
-    uint32_t depth = 0, scatter = 0; ///< vertices so far; in the medium
+    /// The factor of beta that roulette ignores (etaScale of pbrt): absorption before the first scattering, the choice
+    /// between branches, and what dielectrics scale radiance by.
+    float rr_scale = 1;
+    [[no_unique_address]] std::conditional_t<F.meets_lights(), PreviousVertex<F>, Absent<1>> previous;
+    uint32_t depth = 0;   ///< scattering vertices so far
+    uint32_t scatter = 0; ///< those in the medium
     PathClass path_class = PathClass::none;
     EmissionMode emission_mode = EmissionMode::mis;
-    uint32_t depth_since_first = 0; ///< vertices since then
-    uint32_t specular_depth = 0;    ///< mirrors and glass in a row, up to here
-    [[no_unique_address]] std::conditional_t<F.glass, InteriorStack, NoGlass> glass;
+    uint32_t depth_since_first = 0; ///< vertices from the one that decided path_class on
+    uint32_t specular_depth = 0;    ///< mirrors and dielectrics in a row up to here
+    [[no_unique_address]] std::conditional_t<F.dielectrics, InteriorStack, NoInterior> interior;
 
-    /// A ray from a point in the medium that the pool has already given its light, but for what bounded connections
-    /// leave out: a vertex in the medium or on a surface counts no further than here. Infinite for every other segment.
+    /// Finite on a compensation ray (vpl_gather.inl): it brings what the bounded connections of its first point leave
+    /// out, so the next vertex counts no farther from there than this, in the medium and on a surface.
     float medium_compensation_radius = kInfinity, surface_compensation_radius = kInfinity;
     bool compensates() const { return F.medium && medium_compensation_radius < kInfinity; }
-    bool splatted = false; ///< such a ray, where splats bring what no vertex holds (splat.h)
+    bool splatted = false; ///< a compensation ray for which splats bring the part that no light vertex stands for
 
-    /// Seen from the camera with nothing but mirrors and glass between.
-    bool direct_view() const { return path_class == PathClass::none; }
+    /// Whether the camera sees the segment, directly or by way of mirrors and dielectrics alone.
+    bool seen_directly() const { return path_class == PathClass::none; }
 };
 
 } // namespace glimmer

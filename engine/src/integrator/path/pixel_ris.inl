@@ -15,7 +15,6 @@ namespace glimmer {
 
 template <KernelFeatures F>
 void PathSample<F>::pixel_ris() {
-    constexpr float kEven = 0.1f; // of the choice is even, for what was not expected
     struct Seen {
         Ray ray;
         Interaction surface;
@@ -26,22 +25,21 @@ void PathSample<F>::pixel_ris() {
     std::array<Seen, kRisCandidates> points;
     uint32_t count = 0;
     float total = 0;
-    constexpr uint32_t kSide = 2;
-    static_assert(kSide * kSide == kRisCandidates);
     for (uint32_t i = 0; i < kRisCandidates; ++i) {
         const Vec2f u = sampler_.stratified_2d(dimension(Dimension::candidate_film, i));
-        const Vec2f u_pixel{(float(i % kSide) + u.x) / kSide, (float(i / kSide) + u.y) / kSide};
+        const Vec2f u_pixel{(float(i % kRisStrataPerSide) + u.x) / kRisStrataPerSide,
+                            (float(i / kRisStrataPerSide) + u.y) / kRisStrataPerSide};
         Seen &point = points[count];
-        point.ray = sample_camera_ray(scene_, pixel_x_, pixel_y_, u_pixel, sampler_.next_2d()).ray;
+        point.ray = sample_camera_ray(scene(), context_.pixel_x, context_.pixel_y, u_pixel, sampler_.next_2d()).ray;
         const auto hit = intersect(point.ray);
         if (!hit)
             continue;
-        point.surface = scene_.interaction(point.ray, *hit);
+        point.surface = scene().interaction(point.ray, *hit);
         point.beta = Rgb(1.0f / kRisCandidates);
-        if (F.medium && scene_.medium)
-            point.beta *= scene_.medium->transmittance(hit->t);
+        if (F.medium && scene().medium)
+            point.beta *= scene().medium->transmittance(hit->t);
         point.shading = shade(point.surface, point.ray);
-        const float expected = ris_target(scene_, point.surface, point.shading.bsdf, -point.ray.direction, sigma_);
+        const float expected = ris_target(scene(), point.surface, point.shading.bsdf, -point.ray.direction, sigma_);
         point.expected = max_component(point.beta) * expected;
         if (!(point.expected > 0) || !(point.expected < kInfinity)) // nothing rough, or black
             point.expected = 0;
@@ -50,7 +48,8 @@ void PathSample<F>::pixel_ris() {
     }
     if (count == 0)
         return;
-    const float even = (total > 0 ? kEven : 1.0f) / float(count), scale = total > 0 ? (1 - kEven) / total : 0.0f;
+    const float even = (total > 0 ? kRisUniformFraction : 1.0f) / float(count),
+                scale = total > 0 ? (1 - kRisUniformFraction) / total : 0.0f;
     float left = sampler_.next_1d();
     for (uint32_t i = 0; i < count; ++i) {
         const float probability = even + scale * points[i].expected;

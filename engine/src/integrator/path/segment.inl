@@ -23,25 +23,26 @@ void PathSample<F>::follow(State &state) {
     std::optional<Interaction> surface;
     Shading shading;
     if (hit) {
-        surface = scene_.interaction(state.ray, *hit);
+        surface = scene().interaction(state.ray, *hit);
         if constexpr (F.surfaces)
             arena_.clear();
         shading = shade(*surface, state.ray);
-        if (state.direct_view() && state.depth == 0)
+        if (state.seen_directly() && state.depth == 0)
             note_first_surface(*surface);
         add_emission(state, *hit, *surface, shading.emission, medium);
     } else {
         add_infinity(state, medium);
     }
-    if (state.depth >= limits_.depth || state.emission_mode == EmissionMode::only)
+    if (state.depth >= context_.limits.depth || state.emission_mode == EmissionMode::only)
         return;
     state.emission_mode = EmissionMode::mis;
 
-    if (medium && medium->scatters() && state.scatter < limits_.scatter) {
-        const bool split = pooled() || (options().split && state.direct_view() && stack_.size() < kBranches);
-        if (lights_along(state))
+    if (medium && medium->scatters() && state.scatter < context_.limits.scatter) {
+        const bool split =
+            has_light_vertices() || (flags().split && state.seen_directly() && stack_.size() < kMaxOpenBranches);
+        if (samples_lights_along(state))
             sample_lights_along(state, end, *medium, split);
-        if (pooled()) {
+        if (has_light_vertices()) {
             gather_along(state, end, *medium);
         } else if constexpr (F.medium_walks) {
             if (split)
@@ -56,7 +57,7 @@ void PathSample<F>::follow(State &state) {
     }
     if (!surface)
         return;
-    if (medium && state.direct_view()) // an absorber in front of everything dims the picture, not what is behind it
+    if (medium && state.seen_directly()) // an absorber in front of everything dims the picture, not what is behind it
         state.rr_scale *= least_absorbed(*medium, end);
     if constexpr (F.surfaces)
         scatter_at_surface(state, *surface, shading.bsdf);
@@ -64,13 +65,12 @@ void PathSample<F>::follow(State &state) {
 
 template <KernelFeatures F>
 bool PathSample<F>::may_meet_light(const Ray &ray) const {
-    if (scene_.lights.size() > kAllLights)
+    if (scene().lights.size() > kMaxLightsSampledEach)
         return true;
-    for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
-        const LightBound &b = scene_.lights.bound(i);
+    for (uint32_t i = 0; i < scene().lights.size(); ++i) {
+        const LightBound &b = scene().lights.bound(i);
         const Vec3f way = b.center - ray.origin;
-        constexpr float kWider = 1.001f; // than all rounding, at the price of a ray now and then
-        const float radius2 = b.radius * b.radius * kWider + 1e-6f * length_squared(way);
+        const float radius2 = b.radius * b.radius * kLightBoundFactor + kLightBoundMargin2 * length_squared(way);
         if (b.infinite || length_squared(way) <= radius2 ||
             (dot(way, ray.direction) > 0 && length_squared(cross(way, ray.direction)) <= radius2))
             return true;
@@ -85,16 +85,16 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
         return;
     float weight = 1;
     if (hit.instance == kNone) {
-        const uint32_t light = scene_.lights.of_sphere(hit.primitive);
-        weight = state.depth == 0 ? seen_part_ : emission_mis_weight(state, light, kNone, hit.t, 1);
-    } else if (F.other_lights && scene_.lights.of_meshes() != kNone) {
-        const auto &mesh = std::get<MeshLight>(scene_.lights[scene_.lights.of_meshes()]);
+        const uint32_t light = scene().lights.of_sphere(hit.primitive);
+        weight = state.depth == 0 ? context_.primary_weight : emission_mis_weight(state, light, kNone, hit.t, 1);
+    } else if (F.other_lights && scene().lights.of_meshes() != kNone) {
+        const auto &mesh = std::get<MeshLight>(scene().lights[scene().lights.of_meshes()]);
         const uint32_t triangle = mesh.triangle_of[mesh.first_of_instance[hit.instance] + hit.primitive];
         if (triangle != kNone)
-            weight = emission_mis_weight(state, scene_.lights.of_meshes(), triangle, hit.t,
+            weight = emission_mis_weight(state, scene().lights.of_meshes(), triangle, hit.t,
                                          std::abs(dot(surface.geometric_normal, state.ray.direction)));
     }
-    add_seen(state, emission * weight, hit.t, medium);
+    add_emitted(state, emission * weight, hit.t, medium);
 }
 
 template <KernelFeatures F>
@@ -103,61 +103,52 @@ void PathSample<F>::add_lamps(const State &state, float end, const HomogeneousMe
         return;
     Ray ray = state.ray;
     ray.t_max = end;
-    for (uint32_t light : scene_.lights.intersectable_lamps())
-        if (const auto lamp = intersect_lamp(scene_.lights[light], ray))
-            add_seen(state, lamp->radiance * emission_mis_weight(state, light, kNone, lamp->t, 1), lamp->t, medium);
+    for (uint32_t light : scene().lights.intersectable_lamps())
+        if (const auto lamp = intersect_lamp(scene().lights[light], ray))
+            add_emitted(state, lamp->radiance * emission_mis_weight(state, light, kNone, lamp->t, 1), lamp->t, medium);
 }
 
 template <KernelFeatures F>
 void PathSample<F>::add_infinity(const State &state, const HomogeneousMedium *medium) {
     if (!F.other_lights)
         return;
-    for (uint32_t light : scene_.lights.infinite()) {
-        const bool sun = std::holds_alternative<SunLamp>(scene_.lights[light]);
+    for (uint32_t light : scene().lights.infinite()) {
+        const bool sun = std::holds_alternative<SunLamp>(scene().lights[light]);
         if (sun && state.depth == 0)
             continue;
-        const Rgb radiance = radiance_from_infinity(scene_.lights[light], state.ray.direction);
+        const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction);
         if (!is_black(radiance))
-            add_seen(state, radiance * emission_mis_weight(state, light, kNone, kInfinity, 1), kInfinity, medium);
+            add_emitted(state, radiance * emission_mis_weight(state, light, kNone, kInfinity, 1), kInfinity, medium);
     }
 }
 
 template <KernelFeatures F>
-void PathSample<F>::add_seen(const State &state, const Rgb &radiance, float distance, const HomogeneousMedium *medium) {
-    const Rgb value = state.beta * radiance * (medium ? medium->transmittance(distance) : Rgb(1));
-    switch (state.path_class) {
-    case PathClass::none:
-        result_.emission += value;
-        break;
-    case PathClass::medium:
-        result_.medium += value;
-        break;
-    case PathClass::surface:
-        (state.depth_since_first == 1 ? result_.direct : result_.indirect) += value;
-    }
+void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float distance,
+                                const HomogeneousMedium *medium) {
+    aov_of_emission(state) += state.beta * radiance * (medium ? medium->transmittance(distance) : Rgb(1));
 }
 
 template <KernelFeatures F>
 float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, uint32_t triangle, float distance,
                                          float cosine) const {
     if constexpr (F.meets_lights()) {
-        const auto &o = state.origin;
+        const auto &o = state.previous;
         if (state.emission_mode == EmissionMode::skip)
             return 0;
         if (o.kind == ScatterKind::specular || light == kNone)
             return 1;
         const float at_light =
-            light_pdf(scene_.lights[light], o.position, state.ray.direction, triangle, distance, cosine);
+            light_pdf(scene().lights[light], o.position, state.ray.direction, triangle, distance, cosine);
         if (o.kind == ScatterKind::surface)
-            return balance(o.pdf, expected_samples(o.all_lights, light, o.position) * at_light);
-        if (scene_.lights.bound(light).infinite)
+            return balance(o.pdf, expected_samples(o.several_lights, light, o.position) * at_light);
+        if (scene().lights.bound(light).infinite)
             return 1;
-        if (!o.along)
+        if (!o.along_segment)
             return balance(o.pdf, expected_samples(false, light, o.position) * at_light);
         if constexpr (F.medium_walks) {
             const PreviousSegment &s = o.segment;
             const EquiangularTable line = equiangular_table(light, s.origin, s.direction, s.end);
-            const float samples = expected_samples(o.all_lights, light, s.origin, s.direction, s.end);
+            const float samples = expected_samples(o.several_lights, light, s.origin, s.direction, s.end);
             return balance(s.distance_pdf * o.pdf, samples * line.pdf(s.distance) * at_light);
         }
     }
@@ -165,21 +156,21 @@ float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, uin
 }
 
 template <KernelFeatures F>
-bool PathSample<F>::occluded(const Vec3f &origin, const LightSample &light, float moved) {
-    ++rays_.rays;
+bool PathSample<F>::occluded(const Vec3f &origin, const LightSample &light, float origin_offset) {
+    ++trace_.rays;
     constexpr float direction_error = 0x1p-21f; // of a unit vector in float32, and of Embree's own arithmetic
     const float short_of_light =
-        light.distance * (1 - direction_error / light.facing) - (light.error + moved) / light.facing;
+        light.distance * (1 - direction_error / light.facing) - (light.error + origin_offset) / light.facing;
     const float distance = std::max(short_of_light, 0.0f);
     const Ray ray{origin, light.direction, distance};
-    return F.bvh ? scene_.accel->occluded(ray, light.ignored_sphere)
-                 : scene_.accel->occluded_by_few(ray, light.ignored_sphere);
+    return F.bvh ? scene().accel->occluded(ray, light.ignored_sphere)
+                 : scene().accel->occluded_by_few(ray, light.ignored_sphere);
 }
 
 template <KernelFeatures F>
 float PathSample<F>::survival(const Rgb &beta, float rr_scale, const Vec3f &x, float roulette_scale) const {
-    const float early = options().late_roulette ? roulette_scale : 1;
-    const float weight = early * max_component(beta) / rr_scale * return_bound(scene_, x);
+    const float early = flags().late_roulette ? roulette_scale : 1;
+    const float weight = early * max_component(beta) / rr_scale * return_bound(scene(), x);
     return weight > 0 ? std::min(weight, 1.0f) : 0; // NaN does not live on
 }
 

@@ -3,7 +3,7 @@
 
 #include "camera/camera_sample.h"
 #include "integrator/direct/ris_target.h"
-#include "sampling/dimensions.h"
+#include "integrator/path/tuning.h"
 
 #include <cmath>
 
@@ -11,12 +11,7 @@ namespace glimmer {
 
 namespace {
 
-constexpr uint32_t kPairs = 4096; // a few milliseconds
-constexpr uint64_t kPilotStream = 0x911;
-constexpr double kGlints = 0.8;
-constexpr uint32_t kBranches = 4, kFewBranches = 2;
-static_assert(kBranches <= dimension_count(Dimension::branch_lobe) &&
-              kBranches <= dimension_count(Dimension::branch_direction));
+constexpr uint64_t kPilotStream = 0x911; // keeps the pilot's random numbers apart from the picture's
 
 } // namespace
 
@@ -37,7 +32,7 @@ double pixel_contrast(const Scene &scene) {
         return double(ris_target(scene, surface, shading.bsdf, -ray.direction, 0));
     };
     double variance = 0, square = 0;
-    for (uint32_t i = 0; i < kPairs; ++i) {
+    for (uint32_t i = 0; i < kContrastPilotPairs; ++i) {
         const Vec2f u = sampler.next_2d();
         const uint32_t x = pick_pixel(film.crop_x, film.crop_width, u.x),
                        y = pick_pixel(film.crop_y, film.crop_height, u.y);
@@ -50,10 +45,13 @@ double pixel_contrast(const Scene &scene) {
     return square > 0 ? variance / square : 0;
 }
 
-SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &options) {
+SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &flags) {
     const bool medium = scene.medium && scene.medium->scatters();
-    const bool glints = (options.pixel_points || (options.branch && !medium)) && pixel_contrast(scene) > kGlints;
-    return {!options.branch ? 1 : medium || glints ? kBranches : kFewBranches, options.pixel_points && glints};
+    const bool glints = (flags.pixel_points || (flags.branch && !medium)) && pixel_contrast(scene) > kContrastOfGlints;
+    return {!flags.branch      ? 1
+            : medium || glints ? kBranchesWhereVaried
+                               : kBranchesElsewhere,
+            flags.pixel_points && glints};
 }
 
 } // namespace glimmer

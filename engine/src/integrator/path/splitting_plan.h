@@ -24,6 +24,6 @@ struct SplittingPlan {
 /// clearing, .81 on smooth metal, .96 on glimmervoid without medium (and 1.3, measured with roulette from the start, on
 /// a field of alpha .25, whose contrast is .35); with one branch for four it is 1.8, 2.0, 1.9 and 1.3 times as large.
 /// Without medium two branches give .76 of the variance of four on that field, and 1.1 on glimmervoid.
-SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &options);
+SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &flags);
 
 } // namespace glimmer

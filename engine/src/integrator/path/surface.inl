@@ -13,19 +13,17 @@
 
 namespace glimmer {
 
-inline constexpr float kShadowRays = 2;
-
 template <KernelFeatures F>
 void PathSample<F>::note_first_surface(const Interaction &surface) {
     result_.hit = true;
     result_.normal = surface.shading_normal;
-    result_.depth = scene_.camera.depth(surface.position);
+    result_.depth = scene().camera.depth(surface.position);
     result_.object_index = surface.object_index;
     result_.material_index = surface.material + 1;
 }
 
 template <KernelFeatures F>
-auto PathSample<F>::oriented(const Interaction &surface, const Vec3f &direction) -> std::optional<OrientedSurface> {
+auto PathSample<F>::orient(const Interaction &surface, const Vec3f &direction) -> std::optional<OrientedSurface> {
     const Vec3f wo = -direction;
     const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
     const Vec3f geometric = surface.geometric_normal * side;
@@ -41,8 +39,8 @@ auto PathSample<F>::oriented(const Interaction &surface, const Vec3f &direction)
 
 template <KernelFeatures F>
 void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, Bsdf bsdf, Lobes lobes) {
-    const Material &material = scene_.materials[surface.material];
-    if constexpr (F.glass)
+    const Material &material = scene().materials[surface.material];
+    if constexpr (F.dielectrics)
         if (material.kind == MaterialKind::glass) {
             if (lobes != Lobes::bounded)
                 cross_dielectric(state, surface, material);
@@ -51,18 +49,18 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
     if (bsdf.empty() || (lobes == Lobes::remainder && is_bounded(max_value(bsdf))))
         return;
     const bool camera = state.depth == 0;
-    const auto surface_frame = oriented(surface, state.ray.direction);
-    if (!surface_frame)
+    const auto oriented_surface = orient(surface, state.ray.direction);
+    if (!oriented_surface)
         return;
-    const auto &[frame, geometric, wo_local] = *surface_frame;
-    if (state.direct_view())
+    const auto &[frame, geometric, wo_local] = *oriented_surface;
+    if (state.seen_directly())
         result_.albedo = albedo(bsdf);
 
     // Where mirrors could send each branch to the next surface that branches, one goes on.
-    const uint32_t branches = state.direct_view() && !has_specular(bsdf) ? plan_.branches : 1;
-    const bool lit = camera && plan_.pixel_ris;
-    if (!is_specular(bsdf) && !lit)
-        sample_lights_at(state, surface, bsdf, *surface_frame, branches, lobes);
+    const uint32_t branches = state.seen_directly() && !has_specular(bsdf) ? context_.plan.branches : 1;
+    const bool lit_by_ris = camera && context_.plan.pixel_ris;
+    if (!is_specular(bsdf) && !lit_by_ris)
+        sample_lights_at(state, surface, bsdf, *oriented_surface, branches, lobes);
 
     for (uint32_t k = 0; k < branches; ++k) {
         const auto s = sample(
@@ -80,7 +78,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
             next.beta *= fraction_of(lobes, bounded_fraction(s->weight * s->pdf, wo_local.z, s->wi.z));
         if (!survives(next, surface.position, kRouletteScaleAtSurfaces) || (s->specular && !survives_specular(next)))
             continue;
-        next.emission_mode = lit && !s->specular ? EmissionMode::skip : EmissionMode::mis;
+        next.emission_mode = lit_by_ris && !s->specular ? EmissionMode::skip : EmissionMode::mis;
         if (s->specular)
             leave_specular(next, surface, wi);
         else
@@ -92,8 +90,8 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
 template <KernelFeatures F>
 void PathSample<F>::leave_specular(State &state, const Interaction &surface, const Vec3f &wi) {
     state.ray = {surface.origin_towards(wi), wi};
-    state.origin = {};
-    state.depth_since_first += state.direct_view() ? 0 : 1;
+    state.previous = {};
+    state.depth_since_first += state.seen_directly() ? 0 : 1;
     ++state.depth;
 }
 
@@ -101,13 +99,13 @@ template <KernelFeatures F>
 void PathSample<F>::leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi,
                                 float pdf) {
     state.ray = {surface.origin_towards(wi), wi};
-    state.origin = {};
-    state.origin.kind = ScatterKind::surface;
-    state.origin.all_lights = every_light(true) || state.direct_view();
-    state.origin.pdf = pdf;
-    state.origin.position = light_sampling_origin(surface, geometric);
+    state.previous = {};
+    state.previous.kind = ScatterKind::surface;
+    state.previous.several_lights = every_light(true) || state.seen_directly();
+    state.previous.pdf = pdf;
+    state.previous.position = light_sampling_origin(surface, geometric);
     state.specular_depth = 0;
-    if (state.direct_view())
+    if (state.seen_directly())
         state.path_class = PathClass::surface;
     ++state.depth_since_first;
     ++state.depth;
@@ -116,32 +114,32 @@ void PathSample<F>::leave_rough(State &state, const Interaction &surface, const 
 template <KernelFeatures F>
 void PathSample<F>::light_surface(const State &state, const Interaction &surface, const Shading &shading) {
     const Bsdf bsdf = shading.bsdf;
-    const auto surface_frame = oriented(surface, state.ray.direction);
-    if (is_specular(bsdf) || !surface_frame)
+    const auto oriented_surface = orient(surface, state.ray.direction);
+    if (is_specular(bsdf) || !oriented_surface)
         return;
-    sample_lights_at(state, surface, bsdf, *surface_frame, 1, Lobes::all);
-    const auto s = sample(bsdf, surface_frame->wo, sampler_.stratified_1d(dimension(Dimension::candidate_lobe)),
+    sample_lights_at(state, surface, bsdf, *oriented_surface, 1, Lobes::all);
+    const auto s = sample(bsdf, oriented_surface->wo, sampler_.stratified_1d(dimension(Dimension::candidate_lobe)),
                           sampler_.stratified_2d(dimension(Dimension::candidate_direction)));
     if (!s || s->specular)
         return;
-    const Vec3f wi = normalize(surface_frame->frame.to_world(s->wi));
-    if (!(dot(wi, surface_frame->geometric) > 0))
+    const Vec3f wi = normalize(oriented_surface->frame.to_world(s->wi));
+    if (!(dot(wi, oriented_surface->geometric) > 0))
         return;
     State next = state;
     next.emission_mode = EmissionMode::only;
     next.beta *= s->weight;
-    leave_rough(next, surface, surface_frame->geometric, wi, s->pdf);
+    leave_rough(next, surface, oriented_surface->geometric, wi, s->pdf);
     if (may_meet_light(next.ray))
         push(next);
 }
 
 template <KernelFeatures F>
 void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf,
-                                     const OrientedSurface &surface_frame, uint32_t branches, Lobes lobes) {
-    const auto &[frame, geometric, wo] = surface_frame;
-    if (scene_.lights.size() == 0)
+                                     const OrientedSurface &oriented_surface, uint32_t branches, Lobes lobes) {
+    const auto &[frame, geometric, wo] = oriented_surface;
+    if (scene().lights.size() == 0)
         return;
-    const bool camera = state.depth == 0, all = state.direct_view();
+    const bool camera = state.depth == 0, several = state.seen_directly();
     const HomogeneousMedium *medium = medium_of(state);
     const Vec3f x = light_sampling_origin(surface, geometric);
     struct Candidate {
@@ -149,11 +147,11 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         Rgb value; ///< unless hidden
         float part;
     };
-    std::array<Candidate, kAllLights> candidates;
+    std::array<Candidate, kMaxLightsSampledEach> candidates;
     uint32_t count = 0;
-    const bool few_rays = (!all || (camera && plan_.pixel_ris)) && every_light(true);
-    for (uint32_t i = 0; i < choices(all || few_rays); ++i) {
-        const LightChoice choice = choose(i, all || few_rays, x);
+    const bool few_rays = (!several || (camera && context_.plan.pixel_ris)) && every_light(true);
+    for (uint32_t i = 0; i < choices(several || few_rays); ++i) {
+        const LightChoice choice = choose(i, several || few_rays, x);
         const auto light =
             sample_light(choice.index, x,
                          camera ? sampler_.stratified_2d(dimension(Dimension::surface_light, i)) : sampler_.next_2d());
@@ -173,16 +171,14 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (!is_black(value))
             candidates[count++] = {*light, value, value.r + value.g + value.b};
     }
-    Rgb &sum = state.path_class == PathClass::none      ? result_.direct
-               : state.path_class == PathClass::surface ? result_.indirect
-                                                        : result_.medium;
+    Rgb &sum = aov_of_scattering(state, PathClass::surface);
     float parts = 0;
     for (uint32_t i = 0; i < count; ++i)
         parts += candidates[i].part;
     for (uint32_t i = 0; i < count; ++i) {
         Candidate &c = candidates[i];
-        // Beyond the first surface about kShadowRays are spent, on each light by its part of the sum.
-        const float tested = few_rays ? std::min(kShadowRays * c.part / parts, 1.0f) : 1.0f;
+        // Beyond the first surface about kShadowRaysBeyondFirstSurface are spent, on each light by its part of the sum.
+        const float tested = few_rays ? std::min(kShadowRaysBeyondFirstSurface * c.part / parts, 1.0f) : 1.0f;
         if (tested < 1 && !(sampler_.next_1d() < tested))
             continue;
         if (!occluded(surface.origin_towards(c.light.direction), c.light, surface.error))
@@ -192,7 +188,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
 
 template <KernelFeatures F>
 void PathSample<F>::cross_dielectric(State &state, const Interaction &surface, const Material &material) {
-    const DielectricCrossing crossing(surface, material, state.ray.direction, state.glass);
+    const DielectricCrossing crossing(surface, material, state.ray.direction, state.interior);
     const DielectricSample s = sample_dielectric(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
     const Vec3f wi = crossing.to_world(s.wi);
     if (!crossing.possible(wi, s.transmitted))
@@ -200,7 +196,7 @@ void PathSample<F>::cross_dielectric(State &state, const Interaction &surface, c
     state.beta *= s.weight;
     state.rr_scale *= s.weight.r;
     if (s.transmitted)
-        state.glass = crossing.beyond;
+        state.interior = crossing.beyond;
     if (!survives(state, surface.position, kRouletteScaleAtSurfaces) || !survives_specular(state))
         return;
     leave_specular(state, surface, wi);

@@ -12,7 +12,7 @@ namespace glimmer {
 
 template <KernelFeatures F>
 void PathSample<F>::gather_along(const State &state, float end, const HomogeneousMedium &medium) {
-    const uint32_t n = state.direct_view() ? pool_->settings.gathers : 1;
+    const uint32_t n = state.seen_directly() ? context_.light_vertices->settings.gathers : 1;
     const uint64_t stratum = ~0ull / n;
     for (uint32_t k = 0; k < n; ++k) {
         const uint64_t bits = stratum * k + sampler_.next_bits() / n;
@@ -24,34 +24,34 @@ void PathSample<F>::gather_along(const State &state, float end, const Homogeneou
         State &at = stack_.back();
         at.beta *= c.weight * (1 / float(n));
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
-        at.path_class = state.direct_view() ? PathClass::medium : state.path_class;
-        const float roulette_scale = state.direct_view() ? kRouletteScaleAtGathers : kRouletteScaleAtSurfaces;
+        at.path_class = state.seen_directly() ? PathClass::medium : state.path_class;
+        const float roulette_scale = state.seen_directly() ? kRouletteScaleAtGathers : kRouletteScaleAtSurfaces;
         if (!gather(at, float(n), state.depth == 0 ? c.t : 0, roulette_scale))
             stack_.pop_back();
     }
 }
 
 template <KernelFeatures F>
-bool PathSample<F>::gather(State &state, float scale, float t, float roulette_scale) {
+bool PathSample<F>::gather(State &state, float points, float t, float roulette_scale) {
     const Vec3f x = state.ray.origin;
-    state.rr_scale /= scale;
+    state.rr_scale /= points;
     if (!survives(state, x, roulette_scale))
         return false;
-    state.rr_scale *= scale;
-    const Rgb value = state.beta * pool_->vertices.gather(x, state.ray.direction, sampler_, rays_);
-    (state.path_class == PathClass::surface ? result_.indirect : result_.medium) += value;
+    state.rr_scale *= points;
+    aov_of_scattering(state, PathClass::medium) +=
+        state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, sampler_, trace_);
     const float u = sampler_.next_1d(); // P(k d0(x) > d) = 1 - w(d)
-    const float k =
-        std::sqrt((1 - u) / std::max(u, 1e-12f)) * pool_->settings.clamp_distance_scale(scene_.camera.distance(x));
-    state.medium_compensation_radius = k * pool_->settings.medium_clamp_distance;
-    state.surface_compensation_radius = k * pool_->settings.surface_clamp_distance;
+    const float k = std::sqrt((1 - u) / std::max(u, 1e-12f)) *
+                    context_.light_vertices->settings.clamp_distance_scale(scene().camera.distance(x));
+    state.medium_compensation_radius = k * context_.light_vertices->settings.medium_clamp_distance;
+    state.surface_compensation_radius = k * context_.light_vertices->settings.surface_clamp_distance;
     const Vec3f seen = state.ray.direction;
-    state.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(seen, sampler_.next_2d()).direction};
+    state.ray = {x, HenyeyGreenstein{scene().medium->g}.sample(seen, sampler_.next_2d()).direction};
     const float splat = t > 0 ? sampler_.next_1d() : 1;
     if constexpr (F.surfaces) // nothing else sends beams
-        state.splatted =
-            t > 0 && splat < splat_fraction(scene_.camera.footprint(t), seen, state.ray.direction, pool_->settings);
-    state.origin = {};
+        state.splatted = t > 0 && splat < splat_fraction(scene().camera.footprint(t), seen, state.ray.direction,
+                                                         context_.light_vertices->settings);
+    state.previous = {};
     ++state.depth;
     ++state.scatter;
     state.specular_depth = 0;
@@ -66,7 +66,7 @@ void PathSample<F>::compensate(State &state, const HomogeneousMedium &medium) {
     const bool splatted = state.splatted;
     state.medium_compensation_radius = state.surface_compensation_radius = kInfinity;
     state.splatted = false;
-    const float reach = splatted || is_bounded(scene_.max_value)
+    const float reach = splatted || is_bounded(scene().max_value)
                             ? std::max(medium_compensation_radius, surface_compensation_radius)
                             : kInfinity;
     state.ray.t_max = reach;
@@ -85,7 +85,7 @@ void PathSample<F>::compensate(State &state, const HomogeneousMedium &medium) {
     } else if constexpr (F.surfaces) {
         if (!hit)
             return;
-        Interaction surface = scene_.interaction(state.ray, *hit);
+        Interaction surface = scene().interaction(state.ray, *hit);
         const bool within = hit->t <= surface_compensation_radius;
         if (within || !splatted)
             scatter_at_surface(state, surface, shade(surface, state.ray).bsdf,

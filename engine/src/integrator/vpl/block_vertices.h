@@ -2,7 +2,7 @@
 // The light vertices picked for one block of pixels, and VPL gathering (docs/method.md, sections 4, 5 and 7).
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/trace_context.h"
 #include "integrator/vpl/light_vertices.h"
 #include "integrator/vpl/vpl_settings.h"
 

@@ -2,8 +2,10 @@
 // Points of the medium that the camera sees. They stand for the gather points of a picture or of a block.
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/trace_context.h"
+#include "math/rectangle.h"
 #include "medium/interior_stack.h"
+#include "sampling/sampler.h"
 #include "scene/scene.h"
 
 #include <vector>

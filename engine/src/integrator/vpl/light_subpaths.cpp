@@ -30,8 +30,8 @@ class LightSubpath {
     void trace(const Emission &start, bool from_delta, const InteriorStack &around, float target) {
         target_ = target;
         branches_.push_back({start.ray, start.power, around, from_delta});
-        for (uint64_t i = 1; i < kMaxVertices && !branches_.empty() && (i % kCancelCheckInterval || !rays_.stopped());
-             ++i) {
+        WalkGuard guard(rays_);
+        while (!branches_.empty() && guard.goes_on()) {
             const Branch next = branches_.back();
             branches_.pop_back();
             segment(next);
@@ -307,7 +307,7 @@ std::vector<double> start_shares(const LightSet &lights, const ImportanceMap &im
 } // namespace
 
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
-                                   Sampler &sampler, const std::atomic<bool> &stop, TraceContext &rays) {
+                                   Sampler &sampler, TraceContext &rays) {
     LightVertices out;
     out.medium.directed = scene.medium && scene.medium->g != 0;
     const LightSet &lights = scene.lights;
@@ -323,7 +323,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
         const float distance = length(b.center - camera.center);
         const bool both =
             std::holds_alternative<SphereLight>(lights[i]) && std::abs(distance - b.radius) <= camera.radius;
-        for (; cursor < sum && !stop.load(std::memory_order_relaxed); cursor += 1) {
+        for (; cursor < sum && !rays.stopped(); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
             const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;
             auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());

@@ -3,18 +3,16 @@
 // wherever the medium or a rough surface scatters them.
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/trace_context.h"
 #include "integrator/vpl/importance_map.h"
 #include "integrator/vpl/light_vertices.h"
 #include "integrator/vpl/vpl_settings.h"
 
-#include <atomic>
-
 namespace glimmer {
 
 /// Traces settings.paths light subpaths. The mean over waves of the vertices' power, in any region, is the power that
-/// is scattered there. Fewer subpaths, and of no use, once `stop` is set.
+/// is scattered there. Fewer subpaths, and of no use, once the trace is stopped.
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
-                                   Sampler &sampler, const std::atomic<bool> &stop, TraceContext &rays);
+                                   Sampler &sampler, TraceContext &rays);
 
 } // namespace glimmer

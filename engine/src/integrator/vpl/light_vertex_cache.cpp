@@ -42,7 +42,6 @@ LightVertexCache::LightVertexCache(const Scene &scene, const InteriorStack &arou
     : scene_(scene), around_camera_(around_camera), settings_(make_vpl_settings(scene, around_camera)) {}
 
 std::unique_ptr<const WaveData> LightVertexCache::prepare_wave(uint64_t seed, uint64_t sample,
-                                                               const std::atomic<bool> &stop,
                                                                TraceContext &rays) const {
     auto wave = std::make_unique<LightVertexWave>();
     wave->seed = seed;
@@ -52,7 +51,7 @@ std::unique_ptr<const WaveData> LightVertexCache::prepare_wave(uint64_t seed, ui
     const Rectangle picture{film.crop_x, film.crop_y, film.crop_width, film.crop_height};
     const ImportanceMap importance(
         scene_, sample_gather_points(scene_, picture, around_camera_, tuning::kImportancePoints, sampler, rays));
-    wave->vertices = trace_light_subpaths(scene_, importance, settings_, sampler, stop, rays);
+    wave->vertices = trace_light_subpaths(scene_, importance, settings_, sampler, rays);
     return wave;
 }
 

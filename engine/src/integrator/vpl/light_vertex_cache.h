@@ -3,7 +3,10 @@
 // them for one block of pixels.
 #pragma once
 
+#include "integrator/depth_limits.h"
 #include "integrator/vpl/block_vertices.h"
+#include "integrator/wave.h"
+#include "math/rectangle.h"
 #include "medium/interior_stack.h"
 
 #include <memory>
@@ -31,8 +34,7 @@ class LightVertexCache {
     LightVertexCache(const Scene &scene, const InteriorStack &around_camera);
 
     /// Traces the light subpaths of a wave.
-    std::unique_ptr<const WaveData> prepare_wave(uint64_t seed, uint64_t sample, const std::atomic<bool> &stop,
-                                                 TraceContext &rays) const;
+    std::unique_ptr<const WaveData> prepare_wave(uint64_t seed, uint64_t sample, TraceContext &rays) const;
     /// Picks vertices for a block and collects its splats.
     std::unique_ptr<const BlockData> prepare_block(const WaveData &wave, const Rectangle &block,
                                                    TraceContext &rays) const;

@@ -3,8 +3,10 @@
 // joined to the camera. No vertex holds that light, and a compensation ray would hit the narrow lobe only rarely.
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/trace_context.h"
 #include "integrator/vpl/vpl_settings.h"
+#include "sampling/sampler.h"
+#include "scene/scene.h"
 
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include "integrator/vpl/streams.h"
 #include "medium/phase.h"
 
-#include <atomic>
 #include <vector>
 
 namespace glimmer {
@@ -76,8 +75,7 @@ VplSettings make_vpl_settings(const Scene &scene, const InteriorStack &around_ca
     pilot_settings.paths = std::min(settings.paths, tuning::kMostPilotPaths);
     const ImportanceMap importance(
         scene, sample_gather_points(scene, picture, around_camera, tuning::kImportancePoints, sampler, rays));
-    const std::atomic<bool> never{false};
-    const LightVertices pilot = trace_light_subpaths(scene, importance, pilot_settings, sampler, never, rays);
+    const LightVertices pilot = trace_light_subpaths(scene, importance, pilot_settings, sampler, rays);
     limit_vertices(settings, pilot_settings.paths, std::max(pilot.medium.size(), pilot.surface.size()));
 
     std::vector<float> densities = densities_about(points, pilot.medium);

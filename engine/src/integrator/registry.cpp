@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "integrator/integrator.h"
+#include "integrator/registry.h"
 
 #include "integrator/path/path_integrator.h"
 
@@ -7,7 +7,7 @@ namespace glimmer {
 
 namespace {
 
-/// What is switched off, from the third of kIntegrators on.
+/// What each integrator from the third on has switched off.
 constexpr std::array kWithout{
     &EstimatorFlags::split,
     &EstimatorFlags::all_lights,
@@ -22,20 +22,20 @@ constexpr std::array kWithout{
 };
 static_assert(kIntegrators.size() == 2 + kWithout.size());
 
-EstimatorFlags options_of(uint32_t index) {
+EstimatorFlags flags_of(uint32_t index) {
     if (index == 1)
         return kBaselineFlags;
-    EstimatorFlags options;
+    EstimatorFlags flags;
     if (index >= 2)
-        options.*kWithout[index - 2] = false;
-    return options;
+        flags.*kWithout[index - 2] = false;
+    return flags;
 }
 
 } // namespace
 
 std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
                                                   bool full_kernel) {
-    return make_path_integrator(scene, limits, options_of(index), full_kernel);
+    return make_path_integrator(scene, limits, flags_of(index), full_kernel);
 }
 
 } // namespace glimmer
