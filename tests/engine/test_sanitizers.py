@@ -183,9 +183,17 @@ def test_command_for_long(preset: str, sanitized: Callable[[str], None], tmp_pat
 
 RUNTIMES = {"asan": ("libasan.so", "libubsan.so"), "tsan": ("libtsan.so",)}
 """What of a sanitizer must be in a Python that loads a library built with it."""
-THREADED = ("session", "saved_state")
-IN_PROCESS = (*THREADED, "api", "bsdf", "determinism", "error_command", "examples", "extremes", "fresnel")
-COMMANDS = ("command", "light_shapes", "medium", "phase", "samplers", "scene_file")
+THREADED = ("test_session.py", "test_saved_state.py")
+IN_PROCESS = (
+    *THREADED,
+    *("api", "test_bsdf.py", "test_determinism.py", "test_examples.py", "test_extremes.py", "test_fresnel.py"),
+)
+COMMANDS = ("command", "scene_file", "test_light_shapes.py", "test_medium.py", "test_phase.py", "test_samplers.py")
+
+
+def test_the_sanitized_tests_are_there() -> None:
+    folder = Path(__file__).parent
+    assert [name for name in (*IN_PROCESS, *COMMANDS) if not (folder / name).exists()] == []
 
 
 @pytest.mark.full
@@ -207,7 +215,7 @@ def test_engine_tests(preset: str, names: tuple[str, ...], repository: Path) -> 
         "TSAN_OPTIONS": f"exitcode=66:suppressions={repository / 'engine' / 'tsan.supp'}",
         "OPENBLAS_NUM_THREADS": "1",  # its own threads were built without the sanitizer
     }
-    tests = [f"tests/engine/test_{name}.py" for name in names]
+    tests = [f"tests/engine/{name}" for name in names]
     # A sanitizer is one more library that the engine, and a C program with it, need.
     options = ["-q", "-s", "-p", "no:cacheprovider", "-k", "not needs_nothing_but and not c_program"]
     command = [sys.executable, "-m", "pytest", *options, *tests]
