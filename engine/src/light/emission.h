@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light leaving its source: where light paths start.
+// Rays that leave a surface of a light: where light subpaths start.
 #pragma once
 
-#include "light/light.h"
+#include "light/interface.h"
+#include "sampling/warp.h"
 
 namespace glimmer {
 
-/// A ray that carries `power` away from a light, in the sense that the mean over samples of power, spread along the
-/// rays, is the light's own. t_max: how far it is that light's (the inside of a see-through ball).
-struct Emission {
-    Ray ray;
-    Rgb power;
-};
+/// Bound on the rounding error of a float32 position, in units of its largest coordinate.
+inline constexpr float kPositionError = 0x1p-20f;
 
-/// For finite lights; nothing for the sun and the environment. `inwards`: the light is a sphere around all that is to
-/// be seen.
-std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, Vec2f u_direction,
-                                        float u_choice);
+/// A cosine-distributed ray from a point of a surface of uniform radiance, started off it by the rounding error.
+inline Emission emit_from_surface(const Vec3f &position, const Vec3f &normal, float error, const Rgb &radiance,
+                                  double area, Vec2f u) {
+    const Vec3f local = sample_cosine_hemisphere(u);
+    const Vec3f direction = normalize(Frame(normal).to_world(local));
+    return {{position + normal * error, direction}, radiance * float(kPiDouble * area)};
+}
 
 } // namespace glimmer

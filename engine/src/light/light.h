@@ -1,131 +1,74 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lights as plain values. Emissive surfaces (spheres, meshes) are met by rays like any surface; lamps are see-through,
 // cast no shadow and are met only where an integrator asks for them; the sun and the environment are met by rays that
-// leave the scene.
+// leave the scene. A new kind is a file like light/sun_lamp.h and a name in the variant below.
 #pragma once
 
-#include "geometry/ray.h"
-#include "geometry/sphere.h"
-#include "light/shapes/sphere.h"
-#include "light/shapes/sun.h"
-#include "math/vec.h"
-#include "sampling/alias_table.h"
-#include "sampling/distribution_2d.h"
+#include "light/area_lamp.h"
+#include "light/environment_light.h"
+#include "light/interface.h"
+#include "light/mesh_light.h"
+#include "light/point_lamp.h"
+#include "light/sphere_lamp.h"
+#include "light/sphere_light.h"
+#include "light/sun_lamp.h"
 
-#include <array>
-#include <optional>
 #include <variant>
-#include <vector>
 
 namespace glimmer {
 
-/// A direction towards a light and what comes from there if nothing stands between (no transmittance).
-struct LightSample {
-    Vec3f direction;
-    float distance;                  ///< a shadow ray runs so far; infinite for the sun and the environment
-    Rgb radiance;                    ///< over the pdf's measure: for a delta light the intensity over distance^2
-    float pdf;                       ///< per solid angle; 1 for a delta light
-    bool delta;                      ///< cannot be met by chance
-    uint32_t ignored_sphere = kNone; ///< the light itself, for the shadow ray
-    float error = 0, facing = 1;     ///< of a shining triangle: of its positions, and |cos| there
-};
-
-/// What a ray finds of a see-through lamp.
-struct LampHit {
-    float t;
-    Rgb radiance;
-};
-
-/// The cone of a spot: 1 inside, smoothly 0 at its edge, by the cosine of the angle to its axis.
-struct SpotCone {
-    Vec3f direction;
-    float cos_half = -1, smooth = 0;
-
-    float falloff(const Vec3f &from_light) const {
-        const float over = dot(from_light, direction) - cos_half;
-        if (over <= 0)
-            return 0;
-        if (over >= smooth)
-            return 1;
-        const float s = over / smooth;
-        return s * s * (3 - 2 * s);
-    }
-};
-
-struct SphereLight {
-    Sphere sphere;
-    Rgb radiance;
-    uint32_t index; ///< of the scene's spheres
-};
-
-/// All emissive triangles of the scene, chosen by power.
-struct MeshLight {
-    struct Triangle {
-        std::array<Vec3d, 3> vertices; ///< float64: a light a millionth of its distance wide keeps its area
-        Rgb radiance;
-        float error; ///< of positions on it
-    };
-    std::vector<Triangle> triangles;
-    AliasTable choice;
-    std::vector<uint32_t> first_of_instance; ///< kNone: not emissive; else + triangle = position in `triangle_of`
-    std::vector<uint32_t> triangle_of;       ///< into triangles; kNone: this one does not shine
-    Vec3f center;
-    float radius = 0;
-    Rgb intensity; ///< sum of area * radiance
-};
-
-struct PointLamp {
-    Vec3f position;
-    Rgb intensity;
-    std::optional<SpotCone> cone;
-};
-
-struct SphereLamp {
-    Sphere sphere;
-    Rgb radiance;
-    std::optional<SpotCone> cone;
-};
-
-struct AreaLamp {
-    Vec3d center, half_x, half_y, normal; ///< shines along the normal
-    bool ellipse;
-    Rgb radiance;
-};
-
-struct SunLamp {
-    SunDisk disk;
-    Rgb irradiance; ///< at normal incidence
-    Rgb radiance;   ///< of the disk; where it has no size, black
-};
-
-struct EnvironmentLight {
-    Rgb color;
-    std::vector<Rgb> pixels; ///< top row first; empty: constant
-    uint32_t width = 0, height = 0;
-    Distribution2d distribution;   ///< empty: constant
-    std::array<Vec3f, 3> to_local; ///< rows
-    Rgb mean;                      ///< over the sphere of directions
-
-    Rgb radiance(const Vec3f &direction) const;
-};
-
 using Light = std::variant<SphereLight, MeshLight, PointLamp, SphereLamp, AreaLamp, SunLamp, EnvironmentLight>;
+
+/// What interface.h asks of a kind.
+template <class L>
+concept LightKind = requires(const L &light, const Vec3f &v, Vec2f u, const LightHit &hit, const Ray &ray) {
+    { L::traits } -> std::same_as<const LightTraits &>;
+    { sample(light, v, u) } -> std::same_as<std::optional<LightSample>>;
+    { bound(light) } -> std::same_as<LightBound>;
+    requires L::traits.delta || requires {
+        { pdf(light, v, v, hit) } -> std::same_as<float>;
+    };
+    requires !L::traits.intersectable || requires {
+        { intersect(light, ray) } -> std::same_as<std::optional<LampHit>>;
+    };
+    requires !L::traits.infinite || requires {
+        { radiance_at_infinity(light, v) } -> std::same_as<Rgb>;
+    };
+    requires L::traits.infinite || requires {
+        { emit(light, false, u, u, 0.0f) } -> std::same_as<Emission>;
+    };
+    // Rays meet a light in one way, or not at all; the camera's own rays ask for no lamps.
+    requires int(L::traits.delta) + L::traits.infinite + L::traits.in_bvh + L::traits.intersectable == 1;
+    requires !(L::traits.intersectable && L::traits.camera_visible);
+};
+
+template <class>
+inline constexpr bool kAllAreLights = false;
+template <LightKind... Kinds>
+inline constexpr bool kAllAreLights<std::variant<Kinds...>> = true;
+static_assert(kAllAreLights<Light>, "a kind of light lacks something that light/interface.h asks for");
+
+inline const LightTraits &traits(const Light &light) {
+    return std::visit([](const auto &l) -> const LightTraits & { return l.traits; }, light);
+}
+
+/// The one kind that the kernels without KernelFeatures::other_lights know. Its bound is its very surface, and only the
+/// side on which the camera is can shine into the picture.
+inline bool is_emissive_sphere(const Light &light) {
+    return std::holds_alternative<SphereLight>(light);
+}
 
 /// Towards the light from x. Nothing where it cannot shine.
 std::optional<LightSample> sample_light(const Light &light, const Vec3f &x, Vec2f u);
 
-inline std::optional<LightSample> sample_light(const SphereLight &light, const Vec3f &x, Vec2f u) {
-    const auto s = sample_sphere(light.sphere.center - Vec3d(x), light.sphere.radius, u);
-    if (!s)
-        return std::nullopt;
-    return LightSample{s->wi, s->distance, light.radiance, s->pdf, false, light.index};
+/// The same for a light that is an emissive sphere, inline for those kernels.
+inline std::optional<LightSample> sample_emissive_sphere(const Light &light, const Vec3f &x, Vec2f u) {
+    return sample(std::get<SphereLight>(light), x, u);
 }
 
-/// The density, per solid angle at x, with which sample_light gives `direction`, known to meet the light. For a mesh
-/// light `triangle` (of MeshLight::triangles) is the one met, `distance` away and seen under `cosine` from its normal.
-/// 0 for a delta light.
-float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, uint32_t triangle = kNone,
-                float distance = 0, float cosine = 0);
+/// The density, per solid angle at x, with which sample_light gives `direction`, known to meet the light at `hit`. 0
+/// for a delta light.
+float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, const LightHit &hit);
 
 /// A see-through lamp on the ray, before its t_max. Nothing for other lights.
 std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray);
@@ -133,14 +76,11 @@ std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray);
 /// What comes from infinitely far along the direction.
 Rgb radiance_from_infinity(const Light &light, const Vec3f &direction);
 
-/// A sphere around the light and about what it shines with: intensity for a finite light, irradiance for the sun and
-/// the environment.
-struct LightBound {
-    Vec3f center;
-    float radius = 0;
-    bool infinite = false;
-    float strength = 0;
-};
 LightBound bound_light(const Light &light);
+
+/// For finite lights; nothing for the sun and the environment. `inwards`: the light is a sphere around all that is to
+/// be seen.
+std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, Vec2f u_direction,
+                                        float u_choice);
 
 } // namespace glimmer

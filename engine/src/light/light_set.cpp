@@ -47,17 +47,16 @@ LightSet::LightSet(std::vector<Light> lights) : lights_(std::move(lights)) {
         const Light &light = lights_[i];
         bounds_.push_back(bound_light(light));
         strengths.push_back(double(bounds_.back().strength));
-        if (const auto *sphere = std::get_if<SphereLight>(&light)) {
-            if (sphere->index >= of_sphere_.size())
-                of_sphere_.resize(sphere->index + 1, kNone);
-            of_sphere_[sphere->index] = i;
-        } else if (std::holds_alternative<MeshLight>(light)) {
-            mesh_light_ = i;
-        } else if (std::holds_alternative<SunLamp>(light) || std::holds_alternative<EnvironmentLight>(light)) {
-            infinite_.push_back(i);
-        } else if (!std::holds_alternative<PointLamp>(light)) {
-            intersectable_lamps_.push_back(i);
-        }
+        std::visit(
+            [&](const auto &l) {
+                if constexpr (l.traits.in_bvh)
+                    claim_surfaces(l, i);
+                if constexpr (l.traits.infinite)
+                    infinite_.push_back(i);
+                if constexpr (l.traits.intersectable)
+                    intersectable_lamps_.push_back(i);
+            },
+            light);
     }
     if (size() > kWeighedLights) {
         double total = 0;
@@ -67,6 +66,16 @@ LightSet::LightSet(std::vector<Light> lights) : lights_(std::move(lights)) {
             s = total > 0 ? double(kGuided) * s / total + double(1 - kGuided) / size() : 1.0;
         by_strength_ = AliasTable(strengths);
     }
+}
+
+void LightSet::claim_surfaces(const SphereLight &light, uint32_t index) {
+    if (light.index >= of_sphere_.size())
+        of_sphere_.resize(light.index + 1, kNone);
+    of_sphere_[light.index] = index;
+}
+
+void LightSet::claim_surfaces(const MeshLight &, uint32_t index) {
+    mesh_light_ = index;
 }
 
 float LightSet::importance_at_point(uint32_t light, const Vec3f &x, float sigma) const {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "light/light.h"
-#include "medium/homogeneous_medium.h"
 
 #include <vector>
 
@@ -12,6 +11,11 @@ namespace glimmer {
 struct LightChoice {
     uint32_t index;
     float probability;
+};
+
+/// A triangle of MeshLight::triangles; kNone: none.
+struct LightTriangle {
+    uint32_t light = kNone, triangle = kNone;
 };
 
 class LightSet {
@@ -26,12 +30,19 @@ class LightSet {
     const Light &operator[](uint32_t i) const { return lights_[i]; }
     const LightBound &bound(uint32_t i) const { return bounds_[i]; }
 
-    /// Lamps and lights at infinity, by index: what an integrator must ask for besides surfaces.
+    /// By index, what an integrator must ask for besides surfaces: the see-through lamps that rays can meet, and the
+    /// lights at infinity.
     const std::vector<uint32_t> &intersectable_lamps() const { return intersectable_lamps_; }
     const std::vector<uint32_t> &infinite() const { return infinite_; }
-    /// Which light a sphere or instance is; kNone if none.
+    /// Which light a sphere of the scene is; kNone if none.
     uint32_t of_sphere(uint32_t sphere) const { return sphere < of_sphere_.size() ? of_sphere_[sphere] : kNone; }
-    uint32_t of_meshes() const { return mesh_light_; }
+    /// Which light and which of its triangles a triangle of an emissive instance is; kNone where it has no area.
+    LightTriangle of_triangle(uint32_t instance, uint32_t primitive) const {
+        if (mesh_light_ == kNone)
+            return {};
+        const auto &mesh = std::get<MeshLight>(lights_[mesh_light_]);
+        return {mesh_light_, mesh.triangle_of[mesh.first_of_instance[instance] + primitive]};
+    }
 
     /// One light for a point: with probability 0.9 by strength / distance^2 * e^(-sigma distance), else any; so that no
     /// light has probability 0, however small its bound. sigma: the smallest extinction of the channels.
@@ -45,6 +56,10 @@ class LightSet {
     float importance_at_point(uint32_t light, const Vec3f &x, float sigma) const;
 
   private:
+    /// Notes whose surface in the BVH is which light.
+    void claim_surfaces(const SphereLight &light, uint32_t index);
+    void claim_surfaces(const MeshLight &light, uint32_t index);
+
     using Weights = std::array<float, kWeighedLights>;
     float importance_along_segment(uint32_t light, const Vec3f &origin, const Vec3f &direction, float t_max,
                                    float sigma) const;

@@ -2,14 +2,13 @@
 // Three-component vectors and colours as plain value types, and the orthonormal frame about a normal.
 #pragma once
 
+#include "math/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 namespace glimmer {
-
-inline constexpr float kPi = 3.14159265358979323846f;
-inline constexpr float kInfinity = __builtin_inff();
 
 /// A direction or position. T is float in the path loop, double where scenes are read and spheres intersected.
 template <class T>

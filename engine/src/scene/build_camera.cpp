@@ -15,7 +15,7 @@ namespace {
 std::vector<float> invert_blackman_harris() {
     constexpr int kFine = 65536, kSteps = 4096;
     const auto window = [](double x) { // x in [0, 1]
-        const double a = 2 * 3.14159265358979323846 * x;
+        const double a = 2 * kPiDouble * x;
         return 0.35875 - 0.48829 * std::cos(a) + 0.14128 * std::cos(2 * a) - 0.01168 * std::cos(3 * a);
     };
     std::vector<double> cdf(kFine + 1, 0.0);
@@ -49,7 +49,7 @@ void SceneBuilder::build_camera_and_film() {
     camera.right = Vec3f(to_world.linear.column(0));
     camera.up = Vec3f(to_world.linear.column(1));
     camera.forward = -Vec3f(to_world.linear.column(2));
-    camera.half_width = float(std::tan(c.fov_x * 3.14159265358979323846 / 360));
+    camera.half_width = float(std::tan(c.fov_x * kPiDouble / 360));
     camera.aspect = float(f.height) / float(f.width);
     camera.shift = {float(c.shift[0]), float(c.shift[1])};
     camera.lens_radius = float(c.lens_radius);

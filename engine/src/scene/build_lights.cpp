@@ -9,8 +9,6 @@ namespace glimmer {
 
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-
 Rgb to_rgb(const float (&c)[3]) {
     return {c[0], c[1], c[2]};
 }
@@ -79,7 +77,7 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
             const auto &[a, b, c] = out.vertices;
             const double area = 0.5 * length(cross(b - a, c - a));
             out.radiance = emission(t);
-            out.error = 0x1p-20f * (local + max_abs(instance.translation));
+            out.error = kPositionError * (local + max_abs(instance.translation));
             const double strength = area * double(mean_component(out.radiance));
             if (!(strength > 0)) {
                 light.triangle_of.push_back(kNone);

@@ -18,7 +18,7 @@ EmitterRays::EmitterRays(const Scene &scene, uint32_t rays) : scene_(scene), ray
         return;
     const float margin = std::sqrt(2.0f) * scene.film.filter_width / float(scene.film.width);
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (!std::holds_alternative<SphereLight>(scene.lights[i]))
+        if (!is_emissive_sphere(scene.lights[i]))
             continue;
         const LightBound &b = scene.lights.bound(i);
         if (const auto disc = scene.camera.silhouette(b.center, b.radius, margin))

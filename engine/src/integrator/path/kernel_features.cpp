@@ -11,7 +11,7 @@ KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool s
     f.dielectrics = scene.has_dielectrics;
     f.bvh = !scene.accel->without_bvh();
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
-        f.other_lights |= !std::holds_alternative<SphereLight>(scene.lights[i]);
+        f.other_lights |= !is_emissive_sphere(scene.lights[i]);
     f.estimator_flags = !(flags == kAllEstimators);
     return f;
 }

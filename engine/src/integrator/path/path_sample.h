@@ -129,8 +129,7 @@ class PathSample {
     /// Whether the ray could meet a light; false only where it certainly does not.
     bool may_meet_light(const Ray &ray) const;
     /// The weight of emission met at the end of a segment against light sampling at, or before, its beginning.
-    float emission_mis_weight(const State &state, uint32_t light, uint32_t triangle, float distance,
-                              float cosine) const;
+    float emission_mis_weight(const State &state, uint32_t light, const LightHit &hit) const;
 
     // Choice of lights. `several`: a place that the camera sees, where all lights are sampled, or several choices.
 
@@ -169,7 +168,7 @@ class PathSample {
         if constexpr (F.other_lights)
             return glimmer::sample_light(scene().lights[light], x, u);
         else
-            return glimmer::sample_light(std::get<SphereLight>(scene().lights[light]), x, u);
+            return sample_emissive_sphere(scene().lights[light], x, u);
     }
     EquiangularTable equiangular_table(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
         const LightBound &b = scene().lights.bound(light);

@@ -86,13 +86,13 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
     float weight = 1;
     if (hit.instance == kNone) {
         const uint32_t light = scene().lights.of_sphere(hit.primitive);
-        weight = state.depth == 0 ? context_.primary_weight : emission_mis_weight(state, light, kNone, hit.t, 1);
-    } else if (F.other_lights && scene().lights.of_meshes() != kNone) {
-        const auto &mesh = std::get<MeshLight>(scene().lights[scene().lights.of_meshes()]);
-        const uint32_t triangle = mesh.triangle_of[mesh.first_of_instance[hit.instance] + hit.primitive];
-        if (triangle != kNone)
-            weight = emission_mis_weight(state, scene().lights.of_meshes(), triangle, hit.t,
-                                         std::abs(dot(surface.geometric_normal, state.ray.direction)));
+        weight = state.depth == 0 ? context_.primary_weight : emission_mis_weight(state, light, {hit.t});
+    } else if (F.other_lights) {
+        const auto [light, triangle] = scene().lights.of_triangle(hit.instance, hit.primitive);
+        if (triangle != kNone) {
+            const float cosine = std::abs(dot(surface.geometric_normal, state.ray.direction));
+            weight = emission_mis_weight(state, light, {hit.t, triangle, cosine});
+        }
     }
     add_emitted(state, emission * weight, hit.t, medium);
 }
@@ -105,7 +105,7 @@ void PathSample<F>::add_lamps(const State &state, float end, const HomogeneousMe
     ray.t_max = end;
     for (uint32_t light : scene().lights.intersectable_lamps())
         if (const auto lamp = intersect_lamp(scene().lights[light], ray))
-            add_emitted(state, lamp->radiance * emission_mis_weight(state, light, kNone, lamp->t, 1), lamp->t, medium);
+            add_emitted(state, lamp->radiance * emission_mis_weight(state, light, {lamp->t}), lamp->t, medium);
 }
 
 template <KernelFeatures F>
@@ -113,12 +113,11 @@ void PathSample<F>::add_infinity(const State &state, const HomogeneousMedium *me
     if (!F.other_lights)
         return;
     for (uint32_t light : scene().lights.infinite()) {
-        const bool sun = std::holds_alternative<SunLamp>(scene().lights[light]);
-        if (sun && state.depth == 0)
+        if (state.depth == 0 && !traits(scene().lights[light]).camera_visible)
             continue;
         const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction);
         if (!is_black(radiance))
-            add_emitted(state, radiance * emission_mis_weight(state, light, kNone, kInfinity, 1), kInfinity, medium);
+            add_emitted(state, radiance * emission_mis_weight(state, light, {kInfinity}), kInfinity, medium);
     }
 }
 
@@ -129,16 +128,14 @@ void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float d
 }
 
 template <KernelFeatures F>
-float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, uint32_t triangle, float distance,
-                                         float cosine) const {
+float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, const LightHit &hit) const {
     if constexpr (F.meets_lights()) {
         const auto &o = state.previous;
         if (state.emission_mode == EmissionMode::skip)
             return 0;
         if (o.kind == ScatterKind::specular || light == kNone)
             return 1;
-        const float at_light =
-            light_pdf(scene().lights[light], o.position, state.ray.direction, triangle, distance, cosine);
+        const float at_light = light_pdf(scene().lights[light], o.position, state.ray.direction, hit);
         if (o.kind == ScatterKind::surface)
             return balance(o.pdf, expected_samples(o.several_lights, light, o.position) * at_light);
         if (scene().lights.bound(light).infinite)

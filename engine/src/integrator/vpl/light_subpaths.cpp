@@ -9,7 +9,7 @@
 #include "integrator/vpl/bounded_fraction.h"
 #include "integrator/vpl/connection.h"
 #include "integrator/vpl/tuning.h"
-#include "light/emission.h"
+#include "light/light.h"
 #include "medium/phase.h"
 
 #include <cmath>
@@ -321,8 +321,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
         const LightBound &b = lights.bound(i);
         // A sphere shines towards the side that the camera is on; towards both where camera rays may start on both.
         const float distance = length(b.center - camera.center);
-        const bool both =
-            std::holds_alternative<SphereLight>(lights[i]) && std::abs(distance - b.radius) <= camera.radius;
+        const bool both = is_emissive_sphere(lights[i]) && std::abs(distance - b.radius) <= camera.radius;
         for (; cursor < sum && !rays.stopped(); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
             const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;
@@ -331,8 +330,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
                 continue;
             start->power *= float((both ? 2 : 1) / (shares[i] * settings.paths));
             const float target = max_component(start->power) * importance(b.center);
-            subpath.trace(*start, std::holds_alternative<PointLamp>(lights[i]),
-                          dielectrics_at(scene, start->ray.origin), target);
+            subpath.trace(*start, traits(lights[i]).delta, dielectrics_at(scene, start->ray.origin), target);
         }
     }
     return out;

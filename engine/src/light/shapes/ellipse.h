@@ -19,7 +19,7 @@ inline std::optional<DirectionSample> sample_ellipse(const EllipseShape &e, Vec2
     const Vec3d normal = cross(e.half_x, e.half_y);
     const double product = length(normal); // of the half axes
     const Vec3d point = e.center + e.half_x * static_cast<double>(d.x) + e.half_y * static_cast<double>(d.y);
-    return direction_to_area_point(point, normal / product, 3.14159265358979323846 * product);
+    return direction_to_area_point(point, normal / product, kPiDouble * product);
 }
 
 inline float pdf_ellipse(const EllipseShape &e, const Vec3f &wi) {
@@ -34,7 +34,7 @@ inline float pdf_ellipse(const EllipseShape &e, const Vec3f &wi) {
     if (x * x + y * y > 1)
         return 0;
     const double d2 = length_squared(*p), cosine = dot(*p, normal) / (std::sqrt(d2) * product);
-    return static_cast<float>(pdf_area_to_solid_angle(d2, cosine, 3.14159265358979323846 * product));
+    return static_cast<float>(pdf_area_to_solid_angle(d2, cosine, kPiDouble * product));
 }
 
 } // namespace glimmer

@@ -79,7 +79,6 @@ class SphericalRectangle {
     double solid_angle() const { return solid_angle_; }
 
   private:
-    static constexpr double kPiDouble = 3.14159265358979323846;
     /// The inner angle between two planes; acos of a dot product would lose half its digits near 0 and pi.
     static double between(const Vec3d &a, const Vec3d &b) { return std::atan2(length(cross(a, b)), -dot(a, b)); }
 

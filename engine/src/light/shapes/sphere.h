@@ -29,12 +29,12 @@ inline double sphere_one_minus_cos(double distance, double radius) {
 inline std::optional<DirectionSample> sample_sphere(const Vec3d &to_center, double radius, Vec2f u) {
     const double d2 = length_squared(to_center), d = std::sqrt(d2);
     const double omc = sphere_one_minus_cos(d, radius);
-    const double ux = static_cast<double>(u.x), phi = 2 * 3.14159265358979323846 * static_cast<double>(u.y);
+    const double ux = static_cast<double>(u.x), phi = 2 * kPiDouble * static_cast<double>(u.y);
     const double one_minus_cos = ux * omc, sine = std::sqrt(one_minus_cos * (2 - one_minus_cos));
     const double cosine = 1 - one_minus_cos;
     const Vec3d axis = d > 0 ? to_center / d : Vec3d{0, 0, 1};
     const Vec3d wi = about_axis(axis, sine * std::cos(phi), sine * std::sin(phi), cosine);
-    const auto pdf = static_cast<float>(1 / (2 * 3.14159265358979323846 * omc));
+    const auto pdf = static_cast<float>(1 / (2 * kPiDouble * omc));
     double distance;
     if (d > radius) {
         // s^2 - sin^2 and d - R in forms that do not cancel: exact at the rim and close to the surface.
@@ -49,7 +49,7 @@ inline std::optional<DirectionSample> sample_sphere(const Vec3d &to_center, doub
 
 /// Density of sample_sphere for any direction that meets the sphere (the caller knows that it does).
 inline float pdf_sphere(const Vec3d &to_center, double radius) {
-    return static_cast<float>(1 / (2 * 3.14159265358979323846 * sphere_one_minus_cos(length(to_center), radius)));
+    return static_cast<float>(1 / (2 * kPiDouble * sphere_one_minus_cos(length(to_center), radius)));
 }
 
 } // namespace glimmer

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A see-through rectangle or ellipse that shines to one side.
+#pragma once
+
+#include "light/emission.h"
+#include "light/interface.h"
+#include "light/shapes/ellipse.h"
+#include "light/shapes/rectangle.h"
+
+namespace glimmer {
+
+struct AreaLamp {
+    Vec3d center, half_x, half_y, normal; ///< shines along the normal
+    bool ellipse;
+    Rgb radiance;
+
+    static constexpr LightTraits traits{.intersectable = true};
+
+    RectangleShape rectangle_from(const Vec3d &x) const {
+        return {center - half_x - half_y - x, half_x * 2.0, half_y * 2.0};
+    }
+    EllipseShape ellipse_from(const Vec3d &x) const { return {center - x, half_x, half_y}; }
+};
+
+inline std::optional<LightSample> sample(const AreaLamp &light, const Vec3f &x, Vec2f u) {
+    const Vec3d at(x);
+    if (dot(at - light.center, light.normal) <= 0)
+        return std::nullopt;
+    const auto s =
+        light.ellipse ? sample_ellipse(light.ellipse_from(at), u) : sample_rectangle(light.rectangle_from(at), u);
+    if (!s)
+        return std::nullopt;
+    return LightSample{s->wi, s->distance, light.radiance, s->pdf, false};
+}
+
+inline float pdf(const AreaLamp &light, const Vec3f &x, const Vec3f &direction, const LightHit &) {
+    const Vec3d at(x);
+    return light.ellipse ? pdf_ellipse(light.ellipse_from(at), direction)
+                         : pdf_rectangle(light.rectangle_from(at), direction);
+}
+
+inline std::optional<LampHit> intersect(const AreaLamp &light, const Ray &ray) {
+    const Vec3d direction(ray.direction), to_center = light.center - Vec3d(ray.origin);
+    const double cosine = dot(direction, light.normal);
+    if (cosine >= 0)
+        return std::nullopt;
+    const double t = dot(to_center, light.normal) / cosine;
+    if (!(t > 0 && t < double(ray.t_max)))
+        return std::nullopt;
+    const Vec3d on = direction * t - to_center;
+    const double x = dot(on, light.half_x) / length_squared(light.half_x),
+                 y = dot(on, light.half_y) / length_squared(light.half_y);
+    if (light.ellipse ? x * x + y * y > 1 : std::abs(x) > 1 || std::abs(y) > 1)
+        return std::nullopt;
+    return LampHit{float(t), light.radiance};
+}
+
+inline Emission emit(const AreaLamp &light, bool, Vec2f u_position, Vec2f u_direction, float) {
+    double x = 2 * double(u_position.x) - 1, y = 2 * double(u_position.y) - 1;
+    double area = 4 * length(light.half_x) * length(light.half_y);
+    if (light.ellipse) {
+        const Vec2f d = sample_uniform_disk(u_position);
+        x = double(d.x), y = double(d.y);
+        area *= kPiDouble / 4;
+    }
+    const Vec3f position(light.center + light.half_x * x + light.half_y * y);
+    return emit_from_surface(position, Vec3f(light.normal), 0, light.radiance, area, u_direction);
+}
+
+inline LightBound bound(const AreaLamp &light) {
+    const double x = length(light.half_x), y = length(light.half_y);
+    const double area = light.ellipse ? kPiDouble * x * y : 4 * x * y;
+    return {Vec3f(light.center), float(light.ellipse ? std::max(x, y) : std::hypot(x, y)), false,
+            bounded_strength(light.radiance, area)};
+}
+
+} // namespace glimmer

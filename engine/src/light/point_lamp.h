@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A lamp without size, or a spot of that kind.
+#pragma once
+
+#include "light/interface.h"
+#include "light/spot_cone.h"
+#include "sampling/warp.h"
+
+namespace glimmer {
+
+struct PointLamp {
+    Vec3f position;
+    Rgb intensity;
+    std::optional<SpotCone> cone;
+
+    static constexpr LightTraits traits{.delta = true};
+};
+
+inline std::optional<LightSample> sample(const PointLamp &light, const Vec3f &x, Vec2f) {
+    const Vec3f to_light = light.position - x;
+    const float distance = length(to_light);
+    if (!(distance > 0))
+        return std::nullopt;
+    const Vec3f direction = to_light / distance;
+    const float factor = falloff(light.cone, -direction);
+    if (factor == 0)
+        return std::nullopt;
+    return LightSample{direction, distance, light.intensity * (factor / distance / distance), 1, true};
+}
+
+inline Emission emit(const PointLamp &light, bool, Vec2f, Vec2f u_direction, float) {
+    if (!light.cone)
+        return {{light.position, sample_uniform_sphere(u_direction)}, light.intensity * (4 * kPi)};
+    const float one_minus_cos = 1 - light.cone->cos_half;
+    const Vec3f direction =
+        normalize(Frame(light.cone->direction).to_world(sample_uniform_cone(one_minus_cos, u_direction)));
+    return {{light.position, direction}, light.intensity * (light.cone->falloff(direction) * 2 * kPi * one_minus_cos)};
+}
+
+inline LightBound bound(const PointLamp &light) {
+    return {light.position, 0, false, mean_component(light.intensity)};
+}
+
+} // namespace glimmer

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A sphere of the scene whose surface shines, outwards and inwards.
+#pragma once
+
+#include "geometry/sphere.h"
+#include "light/emission.h"
+#include "light/interface.h"
+#include "light/shapes/sphere.h"
+
+namespace glimmer {
+
+struct SphereLight {
+    Sphere sphere;
+    Rgb radiance;
+    uint32_t index; ///< of the scene's spheres
+
+    static constexpr LightTraits traits{.in_bvh = true, .camera_visible = true};
+};
+
+inline std::optional<LightSample> sample(const SphereLight &light, const Vec3f &x, Vec2f u) {
+    const auto s = sample_sphere(light.sphere.center - Vec3d(x), light.sphere.radius, u);
+    if (!s)
+        return std::nullopt;
+    return LightSample{s->wi, s->distance, light.radiance, s->pdf, false, light.index};
+}
+
+inline float pdf(const SphereLight &light, const Vec3f &x, const Vec3f &, const LightHit &) {
+    return pdf_sphere(light.sphere.center - Vec3d(x), light.sphere.radius);
+}
+
+inline Emission emit(const SphereLight &light, bool inwards, Vec2f u_position, Vec2f u_direction, float) {
+    const Vec3f normal = sample_uniform_sphere(u_position);
+    const double r = light.sphere.radius;
+    const Vec3f position(light.sphere.center + Vec3d(normal) * r);
+    return emit_from_surface(position, inwards ? -normal : normal, kPositionError * max_abs(position), light.radiance,
+                             4 * kPiDouble * r * r, u_direction);
+}
+
+inline LightBound bound(const SphereLight &light) {
+    const double r = light.sphere.radius;
+    return {Vec3f(light.sphere.center), float(r), false, bounded_strength(light.radiance, kPiDouble * r * r)};
+}
+
+} // namespace glimmer
