@@ -8,25 +8,36 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.description import Camera, Floats
+from ..scene.description import Camera, Floats, Orthographic, Perspective, Projection
 from ..scene.problems import GlimmerError, Notices, place
 
 if TYPE_CHECKING:
     import bpy
 
 
-def projection(
-    lens: float, sensor: tuple[float, float], fit: str, shift: tuple[float, float], size: tuple[int, int]
-) -> tuple[float, tuple[float, float]]:
-    """Horizontal angle in degrees, and the shift in widths, of a picture of size (width, height) with square pixels.
-
-    Blender measures both on the side that the sensor is fitted to: AUTO is the longer one with the sensor's width.
-    """
+def side_in_widths(fit: str, size: tuple[int, int]) -> float:
+    """The side of a picture of size (width, height) that Blender measures a camera by, AUTO: the longer one."""
     width, height = size
-    horizontal = fit == "HORIZONTAL" or (fit == "AUTO" and width >= height)
+    return 1.0 if fit == "HORIZONTAL" or (fit == "AUTO" and width >= height) else height / width
+
+
+def perspective(lens: float, sensor: tuple[float, float], fit: str, size: tuple[int, int]) -> Perspective:
+    """Of a picture of size (width, height) with square pixels. AUTO has the sensor's width on the longer side."""
     fitted = sensor[1] if fit == "VERTICAL" else sensor[0]
-    in_widths = 1.0 if horizontal else height / width
-    return degrees(2.0 * atan(0.5 * fitted / lens / in_widths)), (shift[0] * in_widths, shift[1] * in_widths)
+    return Perspective(degrees(2.0 * atan(0.5 * fitted / lens / side_in_widths(fit, size))))
+
+
+def orthographic(scale: float, fit: str, size: tuple[int, int]) -> Orthographic:
+    """scale: what the measured side of the picture shows, a length."""
+    return Orthographic(scale / side_in_widths(fit, size))
+
+
+def unscaled(matrix: Floats) -> Floats:
+    """As rigid, but what is mirrored stays so: so is the picture."""
+    result = rigid(matrix)
+    if float((result[:3, 1] * np.asarray(matrix)[:3, 1]).sum()) < 0.0:
+        result[:3, 1] *= -1.0
+    return result
 
 
 def rigid(matrix: Floats) -> Floats:
@@ -58,19 +69,18 @@ def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int],
         raise GlimmerError("The scene has no camera: add one, or set it under Scene properties > Scene > Camera")
     data: bpy.types.Camera = camera_object.data
     where = place(camera_object.name)
-    if data.type != "PERSP":
+    if data.type not in ("PERSP", "ORTHO"):
         raise GlimmerError(_unsupported(camera_object))
     to_world: Floats = np.array(camera_object.matrix_world, np.float64)
     if not np.isfinite(to_world).all() or np.linalg.matrix_rank(to_world[:3, :3]) < 3:
         raise GlimmerError(f"Camera '{camera_object.name}' has a scale of 0 or a matrix that is not finite")
-    to_world = rigid(to_world)
-    sensor = (data.sensor_width, data.sensor_height)
-    fov_x, shift = projection(data.lens, sensor, data.sensor_fit, (data.shift_x, data.shift_y), size)
+    to_world = unscaled(to_world)
+    in_widths = side_in_widths(data.sensor_fit, size)
     lens_radius, focus_distance = _depth_of_field(data, to_world, where, notices)
     return Camera(
         to_world=to_world,
-        fov_x=fov_x,
-        shift=shift,
+        projection=_projection(data, size),
+        shift=(data.shift_x * in_widths, data.shift_y * in_widths),
         lens_radius=lens_radius,
         focus_distance=focus_distance,
         clip_start=data.clip_start,
@@ -78,52 +88,59 @@ def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int],
     )
 
 
-def view_projection(window_matrix: Floats, size: tuple[int, int]) -> tuple[float, tuple[float, float]]:
-    """Horizontal angle in degrees, and the shift in widths, of the projection of a region of size (width, height).
+def _projection(data: bpy.types.Camera, size: tuple[int, int]) -> Projection:
+    if data.type == "ORTHO":
+        return orthographic(data.ortho_scale, data.sensor_fit, size)
+    return perspective(data.lens, (data.sensor_width, data.sensor_height), data.sensor_fit, size)
 
-    window_matrix: (4, 4), as OpenGL's. Raises GlimmerError for an orthographic one.
-    """
+
+def view_projection(window_matrix: Floats) -> tuple[Projection, tuple[float, float]]:
+    """The projection of a 3D view's region, and its shift in widths. window_matrix: (4, 4), as OpenGL's."""
     matrix = np.asarray(window_matrix, np.float64)
-    if matrix[3, 3] != 0.0:
-        raise GlimmerError("Orthographic views are not supported yet: press Numpad 5 for perspective")
     across, up = float(matrix[0, 0]), float(matrix[1, 1])
+    if matrix[3, 3] != 0.0:
+        shift = (-0.5 * float(matrix[0, 3]), -0.5 * float(matrix[1, 3]) * across / up)
+        return Orthographic(2.0 / across), shift
     shift = (0.5 * float(matrix[0, 2]), 0.5 * float(matrix[1, 2]) * across / up)
-    return degrees(2.0 * atan(1.0 / across)), shift
+    return Perspective(degrees(2.0 * atan(1.0 / across))), shift
 
 
 def export_view(
     view: bpy.types.SpaceView3D,
     region_view: bpy.types.RegionView3D,
     camera_object: bpy.types.Object | None,
-    size: tuple[int, int],
     notices: Notices,
 ) -> Camera:
-    """What a 3D view of size (width, height) looks through. camera_object: evaluated, for a view through it."""
+    """What a 3D view looks through. camera_object: evaluated, for a view through it."""
     data = None
     if region_view.view_perspective == "CAMERA" and camera_object is not None and camera_object.type == "CAMERA":
         data = camera_object.data
         if data.type == "PANO":
             raise GlimmerError(_unsupported(camera_object))
-    fov_x, shift = view_projection(np.array(region_view.window_matrix), size)
-    to_world = rigid(np.array(region_view.view_matrix.inverted(), np.float64))
+    projection, shift = view_projection(np.array(region_view.window_matrix))
+    to_world = unscaled(np.array(region_view.view_matrix.inverted(), np.float64))
     lens_radius, focus_distance = 0.0, 1.0
     if data is not None and camera_object is not None:
         lens_radius, focus_distance = _depth_of_field(data, to_world, place(camera_object.name), notices)
+    clips = view if data is None else data
+    clip_start, clip_end = clips.clip_start, clips.clip_end
+    if data is None and isinstance(projection, Orthographic):  # such a view stands in the middle of what it shows
+        clip_start, clip_end = -0.5 * clip_end, 0.5 * clip_end
     return Camera(
         to_world=to_world,
-        fov_x=fov_x,
+        projection=projection,
         shift=shift,
         lens_radius=lens_radius,
         focus_distance=focus_distance,
-        clip_start=view.clip_start if data is None else data.clip_start,
-        clip_end=view.clip_end if data is None else data.clip_end,
+        clip_start=clip_start,
+        clip_end=clip_end,
     )
 
 
 def _unsupported(camera_object: bpy.types.Object) -> str:
     kind = camera_object.data.type
-    word = {"ORTHO": "orthographic", "PANO": "panoramic"}.get(kind, kind.lower())
-    return f"Camera '{camera_object.name}' is {word}, which is not supported yet; allowed: perspective"
+    word = {"PANO": "panoramic"}.get(kind, kind.lower())
+    return f"Camera '{camera_object.name}' is {word}, which is not supported yet; allowed: perspective, orthographic"
 
 
 def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notices: Notices) -> tuple[float, float]:
@@ -137,5 +154,7 @@ def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notice
     if dof.focus_object is not None:
         target = np.array(dof.focus_object.matrix_world.translation, np.float64)
         distance = abs(float(((target - to_world[:3, 3]) * to_world[:3, 2]).sum()))
-    # The lens is in millimetres whatever the scene's unit, and the f-number divides its diameter.
-    return 0.5e-3 * data.lens / dof.aperture_fstop, max(distance, 1e-5)
+    # A lens is in millimetres whatever the scene's unit, and the f-number divides its diameter. An orthographic camera
+    # has none; Cycles takes one unit for it.
+    diameter = 1.0 if data.type == "ORTHO" else 1e-3 * data.lens
+    return 0.5 * diameter / dof.aperture_fstop, max(distance, 1e-5)

@@ -14,7 +14,7 @@ from ..scene import description as d
 from ..scene.problems import GlimmerError
 from . import structs
 from .library import Library
-from .structs import Filter, Format, LightType, MaterialType
+from .structs import CameraType, Filter, Format, LightType, MaterialType
 
 
 def _contiguous_floats(array: Any) -> tuple[Any, Format]:
@@ -125,7 +125,10 @@ class NativeScene:
     def _set_camera(self, camera: d.Camera) -> None:
         desc = self.library.init(structs.CameraDesc)
         desc.to_world = _matrix(camera.to_world)
-        desc.fov_x = camera.fov_x
+        if isinstance(camera.projection, d.Perspective):
+            desc.type, desc.fov_x = CameraType.PERSPECTIVE, camera.projection.fov_x
+        else:
+            desc.type, desc.width = CameraType.ORTHOGRAPHIC, camera.projection.width
         desc.shift = (c_double * 2)(*camera.shift)
         desc.lens_radius, desc.focus_distance = camera.lens_radius, camera.focus_distance
         desc.clip_start, desc.clip_end = camera.clip_start, camera.clip_end

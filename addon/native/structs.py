@@ -40,6 +40,10 @@ class LightType(IntEnum):
     AREA = 3
 
 
+class CameraType(IntEnum):
+    PERSPECTIVE, ORTHOGRAPHIC = range(2)
+
+
 class Filter(IntEnum):
     BOX = 0
     BLACKMAN_HARRIS = 1
@@ -147,6 +151,8 @@ class CameraDesc(ctypes.Structure):
         ("focus_distance", c_double),
         ("clip_start", c_double),
         ("clip_end", c_double),
+        ("type", c_int),
+        ("width", c_double),
     ]
 
 

@@ -39,13 +39,26 @@ class Film:
 
 
 @dataclass(frozen=True)
+class Perspective:
+    fov_x: float  # full horizontal angle of the whole width, in degrees
+
+
+@dataclass(frozen=True)
+class Orthographic:
+    width: float  # of what the whole picture shows, a length
+
+
+Projection = Perspective | Orthographic
+
+
+@dataclass(frozen=True)
 class Camera:
-    to_world: Floats  # rigid; looks along -z, y up
-    fov_x: float  # full horizontal angle of the whole width
+    to_world: Floats  # rotation or reflection, and translation; looks along -z, y up
+    projection: Projection
     shift: tuple[float, float] = (0.0, 0.0)  # in widths of the picture
     lens_radius: float = 0.0
     focus_distance: float = 1.0
-    clip_start: float = 0.0
+    clip_start: float = 0.0  # along the axis; below 0, behind it, for an orthographic camera alone
     clip_end: float = float("inf")
 
 

@@ -144,12 +144,16 @@ def _film(film: d.Film) -> Json:
 
 
 def _camera(camera: d.Camera) -> Json:
-    result: Json = {"to_world": _numbers(camera.to_world), "fov_x": camera.fov_x}
+    result: Json = {"to_world": _numbers(camera.to_world)}
+    if isinstance(camera.projection, d.Perspective):
+        result["fov_x"] = camera.projection.fov_x
+    else:
+        result["type"], result["width"] = "orthographic", camera.projection.width
     if any(camera.shift):
         result["shift"] = list(camera.shift)
     if camera.lens_radius > 0.0:
         result["lens_radius"], result["focus_distance"] = camera.lens_radius, camera.focus_distance
-    if camera.clip_start > 0.0 or not isinf(camera.clip_end):
+    if camera.clip_start != 0.0 or not isinf(camera.clip_end):
         result["clip"] = [camera.clip_start, None if isinf(camera.clip_end) else camera.clip_end]
     return result
 

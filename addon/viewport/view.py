@@ -123,7 +123,7 @@ class RenderedView:
         return View(
             Film(*size, **filter_settings(scene.glimmer)),
             export_view(
-                space, context.region_data, None if camera is None else camera.evaluated_get(depsgraph), size, notices
+                space, context.region_data, None if camera is None else camera.evaluated_get(depsgraph), notices
             ),
             export_view_settings(scene),
         )

@@ -201,13 +201,18 @@ GLIMMER_API glimmer_result glimmer_scene_set_environment(glimmer_scene *scene, c
 GLIMMER_API glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3],
                                                     const double sigma_s[3], double g);
 
+typedef enum glimmer_camera_type { GLIMMER_PERSPECTIVE = 0, GLIMMER_ORTHOGRAPHIC = 1 } glimmer_camera_type;
+
 typedef struct glimmer_camera_desc {
     size_t struct_size;
-    double to_world[16]; /* rigid; default identity */
-    double fov_x;        /* full horizontal angle of the whole width, also in portrait; 0 to 180, exclusive */
-    double shift[2];     /* of the picture on the film plane, in widths; positive x: the view moves right, y: up */
-    double lens_radius, focus_distance; /* 0: a pinhole; the distance is along the axis */
-    double clip_start, clip_end;        /* along the axis; default 0 and infinity */
+    double to_world[16]; /* rotation or reflection, and translation; looks along -z, y up; default identity */
+    double fov_x;    /* perspective: full horizontal angle of the whole width, also in portrait; above 0, below 180 */
+    double shift[2]; /* of the picture on the film plane, in widths; positive x: the view moves right, y: up */
+    double lens_radius, focus_distance; /* 0: no depth of field; the distance is along the axis */
+    double clip_start, clip_end;        /* along the axis; default 0 and infinity. The start: 0 or more, of an
+                                           orthographic camera any finite number, below 0 behind the camera */
+    glimmer_camera_type type;           /* default perspective */
+    double width;                       /* orthographic: length that the whole width shows, above 0; default 1 */
 } glimmer_camera_desc;
 
 GLIMMER_API void glimmer_camera_init(glimmer_camera_desc *desc);

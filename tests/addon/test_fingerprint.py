@@ -15,7 +15,7 @@ def scene() -> d.SceneDescription:
     triangle = d.Mesh("Tri", np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.uint32))
     return d.SceneDescription(
         film=d.Film(32, 18),
-        camera=d.Camera(np.eye(4), 60.0),
+        camera=d.Camera(np.eye(4), d.Perspective(60.0)),
         materials=(d.NamedMaterial("Grey", d.Mix(0.3, d.Lambert((0.5, 0.5, 0.5)), d.Mirror(d.WHITE))),),
         objects=(d.Object("Tri", triangle, (0,)),),
         spheres=(d.Spheres("Ball", np.zeros((2, 3)), np.ones(2), 0),),

@@ -61,7 +61,9 @@ def camera() -> d.Camera:
     to_world = np.array(
         [[1, 0, 0, 0.2], [0, cos(tilt), -sin(tilt), -7], [0, sin(tilt), cos(tilt), 3.5], [0, 0, 0, 1]], np.float64
     )
-    return d.Camera(to_world, 55.0, shift=(0.03, -0.02), lens_radius=0.05, focus_distance=7.0, clip_end=60.0)
+    return d.Camera(
+        to_world, d.Perspective(55.0), shift=(0.03, -0.02), lens_radius=0.05, focus_distance=7.0, clip_end=60.0
+    )
 
 
 SCENE = d.SceneDescription(
@@ -100,6 +102,7 @@ VARIANTS = {
     "plain": SCENE,
     "fog": replace(SCENE, medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4)),
     "image": replace(SCENE, environment=d.Environment((0.7, 0.7, 0.7), picture(), place(0, 0, 0, 0.8))),
+    "orthographic": replace(SCENE, camera=replace(camera(), projection=d.Orthographic(9.0), clip_start=-2.0)),
     "empty": replace(SCENE, objects=(), spheres=(), lights=()),
 }
 

@@ -97,6 +97,16 @@ def camera() -> None:
     data.dof.use_dof, data.dof.focus_distance, data.dof.aperture_fstop = True, 4.0, 0.05
 
 
+def orthographic() -> None:
+    """With the same, seen from within its own depth, and mirrored."""
+    camera()
+    item = bpy.context.scene.camera
+    item.rotation_euler, item.scale = (1.2, 0.0, 0.4), (-1.0, 1.0, 1.0)
+    data = item.data
+    data.type, data.ortho_scale = "ORTHO", 7.0
+    data.dof.aperture_fstop = 2.0
+
+
 def instances() -> None:
     """A collection in a collection, turned and scaled, with a lamp in it."""
     inside.empty_scene((0.1, 0.1, 0.1))
@@ -169,6 +179,7 @@ SCENES: dict[str, Callable[[], Any]] = {
     "world": world,
     "world image": world_image,
     "camera": camera,
+    "orthographic": orthographic,
     "instances": instances,
     "emissive mesh": emissive_mesh,
     "diffuse": shader("ShaderNodeBsdfDiffuse", Color=OCHRE),

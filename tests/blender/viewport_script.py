@@ -149,7 +149,7 @@ def steps() -> Iterator[Callable[[], bool]]:
 
     space()[1].region_3d.view_perspective = "ORTHO"
     space()[2].tag_redraw()
-    yield lambda: bool(view()._failure)  # type: ignore[union-attr]
+    yield lambda: is_settled() and view().session.counts().scenes > facts["reshaped"]["counts"]["scenes"]  # type: ignore[union-attr]
     note("orthographic")
 
     camera = bpy.context.scene.camera.data

@@ -30,7 +30,7 @@ LEFT_OUT = {
     "lights": "no lights but spheres that shine: no lamps, shining meshes, suns or sky",
 }
 VIEW = camera((0, -6, 3), (0, 4, 1), 60)
-LENS = d.Camera(VIEW.to_world, VIEW.fov_x, lens_radius=0.05, focus_distance=9)
+LENS = d.Camera(VIEW.to_world, VIEW.projection, lens_radius=0.05, focus_distance=9)
 HAZE = d.Medium(grey(0.01), grey(0.05))
 METAL = d.Mix(0.4, d.Lambert((0.7, 0.5, 0.3)), d.Conductor(0.2, eta=(2.6, 2.4, 2.2), k=(3.3, 3.1, 2.9)))
 

@@ -10,7 +10,7 @@ from tests.render.build import Builder, camera, floor, grey, hexagon, octahedron
 def everything(width: int = 40, height: int = 28, fog: bool = True, glass: bool = True) -> d.SceneDescription:
     """Fog, glass, mirrors, metal, instances, lamps, a mesh light, moons, a lens, a coloured and forward haze."""
     view = camera((0, -6, 3), (0, 4, 1), 60)
-    view = d.Camera(view.to_world, view.fov_x, lens_radius=0.02, focus_distance=9)
+    view = d.Camera(view.to_world, view.projection, lens_radius=0.02, focus_distance=9)
     medium = d.Medium((0.01, 0.02, 0.0), (0.05, 0.03, 0.06), 0.2) if fog else None
     scene = Builder(view, width, height, medium=medium, environment=d.Environment(grey(0.1)))
     places = np.tile(np.eye(4), (9, 1, 1))

@@ -40,7 +40,7 @@ def look_at(origin: ArrayLike, target: ArrayLike, up: Vector = (0, 0, 1)) -> Arr
 
 
 def camera(origin: ArrayLike, target: ArrayLike, fov: float) -> d.Camera:
-    return d.Camera(to_world=look_at(origin, target), fov_x=fov)
+    return d.Camera(to_world=look_at(origin, target), projection=d.Perspective(fov))
 
 
 def radiometer(origin: ArrayLike, target: ArrayLike) -> d.Camera:

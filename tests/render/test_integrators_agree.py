@@ -9,7 +9,7 @@ import pytest
 
 from addon.scene import description as d
 from tests.engine.library import Scene, engine, rendering
-from tests.render.build import WHITE, Array, Builder, camera, floor, grey, hexagon, octahedron, quad, sky
+from tests.render.build import WHITE, Array, Builder, camera, floor, grey, hexagon, look_at, octahedron, quad, sky
 from tests.render.statistics import Measurement, Pictures, blocks, check_same
 
 PLATE = d.Mix(0.25, d.Lambert((0.5, 0.5, 0.55)), d.Conductor(0.25, eta=(2.6, 2.4, 2.2), k=(3.3, 3.1, 2.9)))
@@ -115,6 +115,20 @@ def light_by_way_of_metal(g: float = 0) -> Builder:
     return scene.sphere((-1, 4, 1.2), 0.9, d.Light(grey(10)))
 
 
+def from_a_distance(scene: Builder) -> Builder:
+    """Seen by parallel rays, through a lens, from a plane within the fog."""
+    origin, target = (0, -4, 4), (0, 8, 1.5)
+    view = d.Camera(look_at(origin, target), d.Orthographic(9), shift=(0.05, -0.1), clip_start=-2, clip_end=60)
+    return scene.seen_by(replace(view, lens_radius=0.3, focus_distance=9), d.Film(32, 24))
+
+
+def metal_in_parallel_rays() -> Builder:
+    """The fog behind the screen, half of its light thrown there by smooth metal, with all that a camera has but a
+    lens."""
+    view = d.Camera(look_at((3, -3, 2.2), (3, 4, 2.2)), d.Orthographic(4), shift=(0.05, -0.1), clip_start=0.5)
+    return light_by_way_of_metal().seen_by(view, d.Film(40, 30, (5, 3, 37, 27), "blackman_harris", 1.8))
+
+
 def light_close_above_metal() -> Builder:
     """A layer of fog on smooth metal: half of its light was thrown there from a shorter way than connections count."""
     scene = Builder(camera((3, -3, 0.3), (3, 4, 0.3), 4), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
@@ -190,6 +204,8 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "light close above metal": light_close_above_metal,
     "far forward": lambda: field(d.Medium((0.0, 0.01, 0.02), (0.06, 0.05, 0.05), 0.85)),
     "glints through a lens": glints_through_a_lens,
+    "light by way of metal, in parallel rays": metal_in_parallel_rays,
+    "glass in parallel rays, through a lens": lambda: from_a_distance(glass_in_fog()),
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
     "lamps": lamps_in_fog,

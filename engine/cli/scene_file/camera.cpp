@@ -36,11 +36,13 @@ Matrix look_at(const Value &camera) {
 
 void read_clip(const Value &clip, glimmer_camera_desc &desc) {
     clip.expect_size(2);
+    const bool perspective = desc.type == GLIMMER_PERSPECTIVE;
     clip.for_each([&, is_start = true](const Value &end) mutable {
         if (std::exchange(is_start, false))
-            desc.clip_start = end.number(kNonNegative);
+            desc.clip_start = end.number(perspective ? kNonNegative : kAny);
         else
-            desc.clip_end = end.json().is_null() ? std::numeric_limits<double>::infinity() : end.number(kPositive);
+            desc.clip_end = end.json().is_null() ? std::numeric_limits<double>::infinity()
+                                                 : end.number(perspective ? kPositive : kAny);
     });
     if (desc.clip_start >= desc.clip_end)
         clip.fail(clip.json().dump() + " is not [start, end] with start < end (or null for no end)");
@@ -49,16 +51,25 @@ void read_clip(const Value &clip, glimmer_camera_desc &desc) {
 } // namespace
 
 void read_camera(const Value &value, glimmer_scene *scene) {
-    value.expect_object(
-        {"origin", "target", "up", "to_world", "fov_x", "shift", "lens_radius", "focus_distance", "clip"});
+    constexpr std::string_view names[] = {"perspective", "orthographic"};
+    constexpr glimmer_camera_type types[] = {GLIMMER_PERSPECTIVE, GLIMMER_ORTHOGRAPHIC};
     glimmer_camera_desc desc;
     glimmer_camera_init(&desc);
+    value.expect_table();
+    if (const auto type = value.find("type"))
+        desc.type = types[one_of(*type, "a camera type", "camera types", names)];
+    const bool perspective = desc.type == GLIMMER_PERSPECTIVE;
+    value.expect_object({"type", "origin", "target", "up", "to_world", perspective ? "fov_x" : "width", "shift",
+                         "lens_radius", "focus_distance", "clip"});
     const bool has_matrix = value.has("to_world");
     if (has_matrix == (value.has("origin") || value.has("target") || value.has("up")))
         value.fail("needs either origin and target (and up), or to_world");
     const Matrix to_world = has_matrix ? value.at("to_world").matrix() : look_at(value);
     std::copy(to_world.begin(), to_world.end(), desc.to_world);
-    desc.fov_x = value.at("fov_x").number({.low = 0, .high = 180, .open_low = true, .open_high = true});
+    if (perspective)
+        desc.fov_x = value.at("fov_x").number({.low = 0, .high = 180, .open_low = true, .open_high = true});
+    else
+        desc.width = value.at("width").number(kPositive);
     if (const auto shift = value.find("shift")) {
         const auto numbers = shift->numbers<2>();
         std::copy(numbers.begin(), numbers.end(), desc.shift);

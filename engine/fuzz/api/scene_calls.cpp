@@ -136,6 +136,8 @@ void set_camera(Input &in, glimmer_scene *scene) {
         desc.lens_radius = in.number(), desc.focus_distance = in.number();
     if (in.ConsumeBool())
         desc.clip_start = in.number(), desc.clip_end = in.number();
+    if (in.ConsumeBool())
+        desc.type = static_cast<glimmer_camera_type>(in.ConsumeIntegralInRange<int>(0, 2)), desc.width = in.number();
     in.spoil_size(desc);
     expect(glimmer_scene_set_camera(scene, &desc));
 }

@@ -353,24 +353,35 @@ void glimmer_camera_init(glimmer_camera_desc *desc) {
     std::memcpy(desc->to_world, kIdentity, sizeof kIdentity);
     desc->fov_x = 50;
     desc->clip_end = HUGE_VAL;
+    desc->type = GLIMMER_PERSPECTIVE;
+    desc->width = 1;
 }
 
 glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_camera_desc *desc) {
     return guarded([&] {
+        constexpr double kLongest = 1e30; // well within float
         SceneDescription &s = open_scene(scene);
         glimmer_camera_desc defaults;
         glimmer_camera_init(&defaults);
         const glimmer_camera_desc d = checked_desc(desc, defaults, "camera");
         check_rigid(d.to_world, "camera: to_world");
-        if (!(d.fov_x > 0 && d.fov_x < 180))
+        if (uint32_t(d.type) > GLIMMER_ORTHOGRAPHIC)
+            fail_argument("camera: type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 1");
+        const bool perspective = d.type == GLIMMER_PERSPECTIVE;
+        if (perspective && !(d.fov_x > 0 && d.fov_x < 180))
             fail_argument("camera: fov_x is " + text(d.fov_x) + "; allowed: above 0, below 180 degrees");
+        if (!perspective && !(d.width > 0 && d.width <= kLongest))
+            fail_argument("camera: width is " + text(d.width) + "; allowed: above 0, " + text(kLongest) + " at most");
         for (double v : d.shift)
             check_finite(v, "camera: shift");
         check_least(d.lens_radius, 0, "camera: lens_radius");
         check_least(d.focus_distance, 0, "camera: focus_distance");
         if (d.lens_radius > 0 && d.focus_distance == 0)
             fail_argument("camera: focus_distance is 0; a lens with a radius needs one above 0");
-        check_least(d.clip_start, 0, "camera: clip_start");
+        if (perspective)
+            check_least(d.clip_start, 0, "camera: clip_start");
+        else
+            check_range(d.clip_start, -kLongest, kLongest, "camera: clip_start");
         if (!(d.clip_end > d.clip_start))
             fail_argument("camera: clip_end is " + text(d.clip_end) + "; allowed: above clip_start, " +
                           text(d.clip_start));

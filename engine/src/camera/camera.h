@@ -3,9 +3,9 @@
 // rays start near 0; but only the kinds know that, and what they see from there.
 #pragma once
 
+#include "camera/orthographic.h"
 #include "camera/perspective.h"
 
-#include <utility>
 #include <variant>
 
 namespace glimmer {
@@ -17,10 +17,11 @@ class Camera {
     }
 
   public:
-    using Kind = std::variant<PerspectiveCamera>;
+    using Kind = std::variant<PerspectiveCamera, OrthographicCamera>;
 
     Camera() = default;
-    Camera(Kind kind) : kind_(std::move(kind)) {}
+    Camera(const PerspectiveCamera &camera) : kind_(camera) {}
+    Camera(const OrthographicCamera &camera) : kind_(camera) {}
 
     /// The ray through a point of the film (x right, y down, both 0 to 1) and a point of the lens (unit disk).
     CameraRay generate(Vec2f film, Vec2f lens) const {

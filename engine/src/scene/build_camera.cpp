@@ -33,6 +33,27 @@ std::vector<float> invert_blackman_harris() {
     return inverse;
 }
 
+CameraBase camera_base(const glimmer_camera_desc &c, const Affine &to_world, float aspect, double half_width) {
+    CameraBase camera;
+    camera.right = Vec3f(to_world.linear.column(0));
+    camera.up = Vec3f(to_world.linear.column(1));
+    camera.forward = -Vec3f(to_world.linear.column(2));
+    camera.half_width = float(half_width);
+    camera.aspect = aspect;
+    camera.shift = {float(c.shift[0]), float(c.shift[1])};
+    camera.lens_radius = float(c.lens_radius);
+    camera.focus_distance = float(c.focus_distance);
+    camera.clip_start = float(c.clip_start);
+    camera.clip_end = float(c.clip_end);
+    return camera;
+}
+
+Camera make_camera(const glimmer_camera_desc &c, const Affine &to_world, float aspect) {
+    if (c.type == GLIMMER_ORTHOGRAPHIC)
+        return OrthographicCamera{camera_base(c, to_world, aspect, c.width / 2)};
+    return PerspectiveCamera{camera_base(c, to_world, aspect, std::tan(c.fov_x * kPiDouble / 360))};
+}
+
 } // namespace
 
 void SceneBuilder::build_camera_and_film() {
@@ -45,18 +66,7 @@ void SceneBuilder::build_camera_and_film() {
 
     const Affine to_world = affine_from_rows(c.to_world);
     origin_ = to_world.translation;
-    PerspectiveCamera camera;
-    camera.right = Vec3f(to_world.linear.column(0));
-    camera.up = Vec3f(to_world.linear.column(1));
-    camera.forward = -Vec3f(to_world.linear.column(2));
-    camera.half_width = float(std::tan(c.fov_x * kPiDouble / 360));
-    camera.aspect = float(f.height) / float(f.width);
-    camera.shift = {float(c.shift[0]), float(c.shift[1])};
-    camera.lens_radius = float(c.lens_radius);
-    camera.focus_distance = float(c.focus_distance);
-    camera.clip_start = float(c.clip_start);
-    camera.clip_end = float(c.clip_end);
-    scene_.camera = Camera(camera);
+    scene_.camera = make_camera(c, to_world, float(f.height) / float(f.width));
 
     FilmSettings &film = scene_.film;
     film.width = f.width;

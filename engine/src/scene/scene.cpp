@@ -58,7 +58,7 @@ void SceneBuilder::list_left_out() {
     if (scene_.medium && scene_.medium->g == 0)
         out.push_back("isotropic fog: no phase function");
     if (!scene_.camera.has_lens())
-        out.push_back("pinhole camera: no lens sampling");
+        out.push_back("no depth of field: no lens sampling");
     size_t unused = 0;
     for (size_t i = 0; i < used_.size(); ++i)
         unused += !used_[i];

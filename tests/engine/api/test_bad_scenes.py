@@ -219,6 +219,12 @@ def test_bad_environment_and_medium(scene: c_void_p) -> None:
         ({"lens_radius": 1, "focus_distance": 0}, "focus_distance"),
         ({"clip_start": -1}, "clip_start"),
         ({"clip_start": 2, "clip_end": 1}, "clip_end"),
+        ({"type": 2}, "type"),
+        ({"type": 1, "width": 0}, "width"),
+        ({"type": 1, "width": NAN}, "width"),
+        ({"type": 1, "width": INFINITY}, "width"),
+        ({"type": 1, "clip_start": -INFINITY}, "clip_start"),
+        ({"type": 1, "clip_start": -1, "clip_end": -2}, "clip_end"),
     ],
 )
 def test_bad_camera(scene: c_void_p, changes: dict[str, Any], word: str) -> None:

@@ -74,6 +74,15 @@ BAD = [
     Bad(("camera", "lens_radius"), -1, "camera.lens_radius: -1 is not a number of 0 or more"),
     Bad(("camera", "clip"), [2, 1], "camera.clip: [2,1] is not [start, end] with start < end"),
     Bad(("camera", "shift"), 1, "camera.shift: 1 is not a list of 2"),
+    Bad(("camera", "type"), "round", 'camera.type: "round" is not a camera type; camera types are "perspective",'),
+    Bad(("camera", "type"), "orthographic", 'camera: unknown key "fov_x"; allowed here are type,'),
+    Bad(("camera", "width"), 3, 'camera: unknown key "width"; allowed here are type,'),
+    Bad(("camera",), {"type": "orthographic", "to_world": scenes.IDENTITY}, 'camera: the key "width" is missing'),
+    Bad(
+        ("camera",),
+        {"type": "orthographic", "to_world": scenes.IDENTITY, "width": 0},
+        "camera.width: 0 is not a number above 0",
+    ),
     # materials
     Bad(
         ("materials", "wax", "type"),

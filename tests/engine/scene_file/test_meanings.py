@@ -96,6 +96,12 @@ FOG_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
 ]
 
 
+ORTHOGRAPHIC_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
+    (("camera", "width"), 5),
+    *(meaning for meaning in MEANINGS if meaning[0][0] == "camera" and meaning[0][1] != "fov_x"),
+]
+
+
 def all_layers(folder: Path, content: Scene) -> dict[str, NDArray[Any]]:
     options = ("--spp", 4, "--aov", "object_index,material_index,normal,depth")
     return scenes.render(folder, content, *options).channels
@@ -109,11 +115,23 @@ def test_every_value_means_something(fog: bool, tmp_path: Path) -> None:
     base["lights"][3]["to_world"][2][3] = 3
     if not fog:
         del base["medium"]
-    reference = all_layers(tmp_path, base)
-    assert all(np.array_equal(channel, reference[name]) for name, channel in all_layers(tmp_path, base).items())
+    check_meanings(tmp_path, base, FOG_MEANINGS if fog else MEANINGS)
+
+
+def test_every_value_of_an_orthographic_camera_means_something(tmp_path: Path) -> None:
+    base = every_key(tmp_path)
+    base["film"].update(width=32, height=24, crop=[0, 0, 32, 24])
+    del base["medium"], base["camera"]["fov_x"]
+    base["camera"].update(type="orthographic", width=8)
+    check_meanings(tmp_path, base, ORTHOGRAPHIC_MEANINGS)
+
+
+def check_meanings(folder: Path, base: Scene, meanings: list[tuple[tuple[str | int, ...], Any]]) -> None:
+    reference = all_layers(folder, base)
+    assert all(np.array_equal(channel, reference[name]) for name, channel in all_layers(folder, base).items())
     forgotten = []
-    for path, value in FOG_MEANINGS if fog else MEANINGS:
-        layers = all_layers(tmp_path, changed(base, path, value))
+    for path, value in meanings:
+        layers = all_layers(folder, changed(base, path, value))
         if all(np.array_equal(layers[name], reference[name]) for name in reference):
             forgotten.append(".".join(map(str, path)))
     assert not forgotten
