@@ -13,8 +13,8 @@ constexpr double kReach = 9; // optical depth past the shortest way at which the
 
 } // namespace
 
-EquiangularTable::EquiangularTable(const HomogeneousMedium &medium, const Vec3f &origin, const Vec3f &direction,
-                                   float t_max, const Vec3f &center, float radius) {
+EquiangularTable::EquiangularTable(const Medium &medium, const Vec3f &origin, const Vec3f &direction, float t_max,
+                                   const Vec3f &center, float radius) {
     const Vec3d to_center = Vec3d(center) - Vec3d(origin);
     const Vec3d along(direction);
     t_foot_ = dot(to_center, along);
@@ -25,10 +25,7 @@ EquiangularTable::EquiangularTable(const HomogeneousMedium &medium, const Vec3f 
 
     // The path by way of t is at least t - a + |x(t) - c|, which is shortest at t = 0 and grows by at most 2 t.
     // The channel that goes on longest decides, of those that scatter at all.
-    float least = kInfinity;
-    for (int c = 0; c < 3; ++c)
-        if (medium.sigma_s[c] > 0)
-            least = std::min(least, medium.sigma_t[c]);
+    const float least = medium.least_scattering_extinction();
     const double sigma_tail = least < kInfinity ? double(least) : 0;
     double cut = std::isfinite(t_max) ? double(t_max) : kInfinity;
     if (sigma_tail > 0) {
@@ -48,7 +45,7 @@ EquiangularTable::EquiangularTable(const HomogeneousMedium &medium, const Vec3f 
     x_step_ = (to_x(double(t_cut_)) - x_first_) / (kNodes - 1);
 
     const TableShape shape{t_foot_, h_, h2, r, distance, cut, x_first_, x_step_};
-    const float last = simd_kernels().table_nodes(simd_view(medium), shape, density_.data());
+    const float last = simd_kernels().table_nodes(medium.simd_view(), shape, density_.data());
     per_step_ = 1 / x_step_;
     std::array<float, kNodes> area;
     for (size_t i = 1; i < kNodes; ++i)

@@ -5,8 +5,7 @@
 
 #include "integrator/simd/kernels.h"
 #include "math/vec.h"
-#include "medium/homogeneous_medium.h"
-#include "medium/phase.h"
+#include "medium/medium.h"
 
 #include <array>
 #include <optional>
@@ -30,7 +29,7 @@ class EquiangularTable {
   public:
     /// The segment starts at `origin` (unit direction), and ends at t_max (may be infinite). The light is bounded by a
     /// sphere.
-    EquiangularTable(const HomogeneousMedium &medium, const Vec3f &origin, const Vec3f &direction, float t_max,
+    EquiangularTable(const Medium &medium, const Vec3f &origin, const Vec3f &direction, float t_max,
                      const Vec3f &center, float radius);
 
     DistanceSample sample(float u) const;

@@ -2,6 +2,7 @@
 // A medium of constant coefficients: transmittance, and the sampling of distances.
 #pragma once
 
+#include "geometry/ray.h"
 #include "integrator/simd/kernels.h"
 #include "math/simd/float8.h"
 #include "math/vec.h"
@@ -38,29 +39,57 @@ struct HomogeneousMedium {
             return Rgb(std::exp(-optical_depth(sigma_t.r, t)));
         return exp_minus({optical_depth(sigma_t.r, t), optical_depth(sigma_t.g, t), optical_depth(sigma_t.b, t)});
     }
+
+    // As Medium asks for them; the place makes no difference.
+    Rgb transmittance(const Ray &, float t) const { return transmittance(t); }
+    Rgb transmittance(const Ray &, float t, const Ray &, float t_second) const { return transmittance(t + t_second); }
+    Rgb scattering(const Vec3f &) const { return sigma_s; }
+
+    float least_extinction() const { return std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b)); }
+    float least_scattering_extinction() const {
+        return least_of_scattering([](float, float t) { return t; });
+    }
+    float majorant() const { return max_component(sigma_t); }
+    float mean_extinction() const { return (sigma_t.r + sigma_t.g + sigma_t.b) / 3; }
+    float least_absorption() const { return std::min(sigma_a.r, std::min(sigma_a.g, sigma_a.b)); }
+    float effective_attenuation() const {
+        const float least = least_of_scattering(diffuse_attenuation);
+        return least < kInfinity ? least : 0;
+    }
+
+    /// (R / r)^2 e^(-kappa (r - R)) of a ball that is a mean free path larger; no path dies faster than on its way.
+    float return_probability(float radius, float distance) const {
+        float most = 0; // of the channels: a path goes on in whichever carries it furthest
+        for (int c = 0; c < 3; ++c) {
+            if (!(sigma_s[c] > 0))
+                continue;
+            const float reach = radius + 1 / sigma_t[c];
+            if (distance <= reach)
+                return 1;
+            const float kappa = std::min(diffuse_attenuation(sigma_s[c], sigma_t[c]), sigma_t[c]);
+            const float ratio = reach / distance;
+            most = std::max(most, ratio * ratio * std::exp(-kappa * (distance - reach)));
+        }
+        return most;
+    }
+
+  private:
+    /// kappa of one channel in the diffusion approximation: sqrt(3 (1 - albedo)) sigma_t.
+    static float diffuse_attenuation(float s, float t) { return std::sqrt(3 * std::max(1 - s / t, 0.0f)) * t; }
+
+    /// Infinite where no channel scatters.
+    template <class Function>
+    float least_of_scattering(const Function &function) const {
+        float least = kInfinity;
+        for (int c = 0; c < 3; ++c)
+            if (sigma_s[c] > 0)
+                least = std::min(least, function(sigma_s[c], sigma_t[c]));
+        return least;
+    }
 };
 
 inline SimdMedium simd_view(const HomogeneousMedium &m) {
     return {m.sigma_t.r, m.sigma_t.g, m.sigma_t.b, m.g, m.monochromatic};
-}
-
-/// Of the channels that scatter; infinite where none does.
-inline float least_scattering_extinction(const HomogeneousMedium &m) {
-    float least = kInfinity;
-    for (int c = 0; c < 3; ++c)
-        if (m.sigma_s[c] > 0)
-            least = std::min(least, m.sigma_t[c]);
-    return least;
-}
-
-/// sqrt(3 (1 - albedo)) sigma_t of the channel that carries light furthest: how fast light scattered many times dies
-/// away, per length. 0 where nothing scatters.
-inline float effective_attenuation(const HomogeneousMedium &m) {
-    float least = kInfinity;
-    for (int c = 0; c < 3; ++c)
-        if (m.sigma_s[c] > 0)
-            least = std::min(least, std::sqrt(3 * std::max(1 - m.sigma_s[c] / m.sigma_t[c], 0.0f)) * m.sigma_t[c]);
-    return least < kInfinity ? least : 0;
 }
 
 /// A free flight: a scattering at distance t, or none before t_max (then t = t_max).
@@ -243,6 +272,26 @@ inline float collision_pdf(const HomogeneousMedium &m, const Rgb &beta, float t_
         return 0;
     return detail::mixture(share / total, detail::collision_densities(m, share, t_max), detail::depths(m.sigma_t, t),
                            0);
+}
+
+// As Medium asks for them: along a ray.
+inline FreeFlight sample_free_flight(const HomogeneousMedium &m, const Ray &, const Rgb &beta, float t_max,
+                                     Sampler &sampler) {
+    return sample_free_flight(m, beta, t_max, sampler);
+}
+inline float free_flight_pdf(const HomogeneousMedium &m, const Ray &, const Rgb &beta, float t) {
+    return free_flight_pdf(m, beta, t);
+}
+inline Collision sample_collision(const HomogeneousMedium &m, const Ray &, const Rgb &beta, float t_max,
+                                  float u_channel, uint64_t bits_t) {
+    return sample_collision(m, beta, t_max, u_channel, bits_t);
+}
+inline Collision sample_collision(const HomogeneousMedium &m, const Ray &, const Rgb &beta, float t_max,
+                                  Sampler &sampler) {
+    return sample_collision(m, beta, t_max, sampler);
+}
+inline float collision_pdf(const HomogeneousMedium &m, const Ray &, const Rgb &beta, float t_max, float t) {
+    return collision_pdf(m, beta, t_max, t);
 }
 
 } // namespace glimmer

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which glass bodies a point is inside of, so that nested glass meets the right index on its other side.
+// Which bodies a point is inside of: nested glass meets the right index on its other side, and every segment knows its
+// medium.
 #pragma once
 
 #include "geometry/ray.h"
@@ -8,14 +9,19 @@
 
 namespace glimmer {
 
+class Medium;
+
 class InteriorStack {
   public:
     bool empty() const { return count_ == 0; }
     float ior() const { return count_ ? entries_[count_ - 1].ior : 1.0f; }
+    /// Null where there is none. outside: of all bodies.
+    const Medium *medium(const Medium *outside) const { return count_ ? entries_[count_ - 1].medium : outside; }
 
-    void enter(uint32_t body, float ior) {
+    /// medium: that the body is filled with, or null.
+    void enter(uint32_t body, float ior, const Medium *medium = nullptr) {
         if (count_ < entries_.size())
-            entries_[count_++] = {body, ior};
+            entries_[count_++] = {body, ior, medium};
     }
     /// Removes the innermost entry of the body; a surface that was never entered (an open mesh) changes nothing.
     void leave(uint32_t body) {
@@ -32,6 +38,7 @@ class InteriorStack {
     struct Entry {
         uint32_t body;
         float ior;
+        const Medium *medium;
     };
     std::array<Entry, 8> entries_{}; // deeper nesting is treated as the eighth body going on
     uint32_t count_ = 0;

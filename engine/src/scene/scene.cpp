@@ -19,7 +19,7 @@ void SceneBuilder::build_medium() {
     const auto rgb = [](const Vec3d &v) { return Rgb(float(v.x), float(v.y), float(v.z)); };
     const HomogeneousMedium medium(rgb(m.sigma_a), rgb(m.sigma_s), float(m.g));
     if (!is_black(medium.sigma_t))
-        scene_.medium = medium;
+        scene_.medium = Medium(medium);
 }
 
 /// A sphere around all that a path can meet or be lit by, infinite lights apart.
@@ -53,9 +53,9 @@ void SceneBuilder::list_left_out() {
     };
     if (scene_.medium && !scene_.medium->scatters())
         out.push_back("fog that does not scatter: no distance sampling");
-    if (scene_.medium && scene_.medium->monochromatic)
+    if (scene_.medium && scene_.medium->monochromatic())
         out.push_back("grey fog: one channel of transmittance");
-    if (scene_.medium && scene_.medium->g == 0)
+    if (scene_.medium && scene_.medium->phase().g == 0)
         out.push_back("isotropic fog: no phase function");
     if (!scene_.camera.has_lens())
         out.push_back("no depth of field: no lens sampling");
@@ -83,7 +83,7 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
     builder.build_lights();
     builder.build_bounds();
     builder.list_left_out();
-    if (medium && !lights.infinite().empty() && medium->sigma_t.r > 0 && medium->sigma_t.g > 0 && medium->sigma_t.b > 0)
+    if (medium && !lights.infinite().empty() && medium->least_extinction() > 0)
         warnings.push_back(
             "the fog has no end, so the environment and suns behind it are exactly black; light the scene with "
             "lights of a place and size, or leave out the fog");

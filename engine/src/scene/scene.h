@@ -5,7 +5,7 @@
 #include "camera/camera.h"
 #include "geometry/accel.h"
 #include "light/light_set.h"
-#include "medium/homogeneous_medium.h"
+#include "medium/medium.h"
 #include "scene/description.h"
 #include "shading/materials.h"
 
@@ -37,7 +37,9 @@ class Scene {
     Materials materials;
     std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot
     std::vector<uint32_t> sphere_materials, sphere_indices;
-    std::optional<HomogeneousMedium> medium;
+    std::optional<Medium> medium; ///< around all bodies
+    /// The same, or null.
+    const Medium *outside() const { return medium ? &*medium : nullptr; }
     std::unique_ptr<Accel> accel;
     LightSet lights;
     bool has_dielectrics = false, has_surfaces = false; ///< anything that scatters light

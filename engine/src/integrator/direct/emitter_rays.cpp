@@ -52,7 +52,7 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler 
         Interaction surface = scene_.interaction(ray, *hit);
         arena.clear();
         const Rgb emission = scene_.materials.shade(surface, {-ray.direction}, arena).emission;
-        sum += scene_.medium ? emission * scene_.medium->transmittance(hit->t) : emission;
+        sum += emission * transmittance(scene_.outside(), ray, hit->t);
     }
     return sum;
 }

@@ -11,17 +11,17 @@
 namespace glimmer {
 
 template <KernelFeatures F>
-void PathSample<F>::sample_lights_along(const State &state, float end, const HomogeneousMedium &medium, bool split) {
+void PathSample<F>::sample_lights_along(const State &state, float end, const Medium &medium, bool split) {
     if (scene().lights.size() == 0)
         return;
     const bool camera = state.depth == 0, several = state.seen_directly();
-    const HenyeyGreenstein phase{medium.g};
+    const HenyeyGreenstein phase = medium.phase();
     const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
     float looked = 1;
     if (!several &&
         has_light_vertices()) { // short segments between plates scatter next to nothing: seldom worth a look
-        looked =
-            survival((Rgb(1) - medium.transmittance(end)) * state.beta, state.rr_scale, origin, kRouletteScaleInMedium);
+        looked = survival((Rgb(1) - medium.transmittance(state.ray, end)) * state.beta, state.rr_scale, origin,
+                          kRouletteScaleInMedium);
         if (!(looked > 0) || (looked < 1 && sampler_.next_1d() >= looked))
             return;
     }
@@ -41,37 +41,43 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Hom
         if (!light)
             continue;
         const float p_phase = phase.eval(direction, light->direction);
-        const Rgb unshadowed = medium.sigma_s * medium.transmittance(at.t + light->distance) * light->radiance *
-                               (p_phase / light->pdf / at.pdf / choice.probability);
-        if (is_black(unshadowed) || occluded(x, *light))
+        const Rgb unshadowed = medium.scattering(x) *
+                               medium.transmittance(state.ray, at.t, {x, light->direction}, light->distance) *
+                               light->radiance * (p_phase / light->pdf / at.pdf / choice.probability);
+        if (is_black(unshadowed))
+            continue;
+        const Rgb arriving = unshadowed * visibility(x, *light);
+        if (is_black(arriving))
             continue;
         float weight = 1;
         if (!light->delta && !has_light_vertices()) { // a pool's gathers are not lit by chance
-            float p_distance =
-                split ? collision_pdf(medium, state.beta, end, at.t) : free_flight_pdf(medium, state.beta, at.t);
+            float p_distance = split ? medium.collision_pdf(state.ray, state.beta, end, at.t)
+                                     : medium.free_flight_pdf(state.ray, state.beta, at.t);
             if (p_distance > 0) { // of the paths that scatter there roulette leaves this part
-                const Rgb at_collision = state.beta * medium.sigma_s * medium.transmittance(at.t) * (1 / p_distance);
+                const Rgb at_collision =
+                    state.beta * medium.scattering(x) * medium.transmittance(state.ray, at.t) * (1 / p_distance);
                 p_distance *= survival(at_collision, state.rr_scale, x, kRouletteScaleInMedium);
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
-        aov_of_scattering(state, PathClass::medium) += state.beta * unshadowed * (weight / looked);
+        aov_of_scattering(state, PathClass::medium) += state.beta * arriving * (weight / looked);
     }
 }
 
 template <KernelFeatures F>
-void PathSample<F>::split_into_medium(const State &state, float end, const HomogeneousMedium &medium) {
+void PathSample<F>::split_into_medium(const State &state, float end, const Medium &medium) {
     const bool camera = state.depth == 0;
-    const Collision c = camera ? sample_collision(medium, state.beta, end, sampler_.next_1d(),
-                                                  sampler_.stratified_bits(dimension(Dimension::medium_distance)))
-                               : sample_collision(medium, state.beta, end, sampler_);
+    const Collision c = camera
+                            ? medium.sample_collision(state.ray, state.beta, end, sampler_.next_1d(),
+                                                      sampler_.stratified_bits(dimension(Dimension::medium_distance)))
+                            : medium.sample_collision(state.ray, state.beta, end, sampler_);
     if (c.pdf > 0)
         scatter_in_medium(state, end, medium, c.t, c.weight, c.pdf);
 }
 
 template <KernelFeatures F>
-bool PathSample<F>::fly_into_medium(State &state, float end, const HomogeneousMedium &medium) {
-    const FreeFlight flight = sample_free_flight(medium, state.beta, end, sampler_);
+bool PathSample<F>::fly_into_medium(State &state, float end, const Medium &medium) {
+    const FreeFlight flight = medium.sample_free_flight(state.ray, state.beta, end, sampler_);
     if (!flight.scattered) {
         state.beta *= flight.weight;
         return false;
@@ -82,8 +88,8 @@ bool PathSample<F>::fly_into_medium(State &state, float end, const HomogeneousMe
 }
 
 template <KernelFeatures F>
-void PathSample<F>::scatter_in_medium(const State &state, float end, const HomogeneousMedium &medium, float t,
-                                      const Rgb &weight, float pdf) {
+void PathSample<F>::scatter_in_medium(const State &state, float end, const Medium &medium, float t, const Rgb &weight,
+                                      float pdf) {
     State next = state;
     next.beta *= weight;
     const Vec3f x = state.ray.origin + state.ray.direction * t;
@@ -96,9 +102,9 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Homog
     if (!survives(next, x, kRouletteScaleInMedium))
         return;
     const bool camera = state.depth == 0;
-    const PhaseSample s = HenyeyGreenstein{medium.g}.sample(
-        state.ray.direction,
-        camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction)) : sampler_.next_2d());
+    const PhaseSample s = medium.phase().sample(state.ray.direction,
+                                                camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction))
+                                                       : sampler_.next_2d());
     next.ray = {x, s.direction};
     next.previous = {ScatterKind::medium,
                      state.seen_directly(),
@@ -116,21 +122,23 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Homog
 }
 
 template <KernelFeatures F>
-void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, const HomogeneousMedium &medium,
-                                           bool by_chance) {
+void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, const Medium &medium, bool by_chance) {
     if (scene().lights.size() == 0)
         return;
     const LightChoice choice = choose(0, false, x);
     const auto light = sample_light(choice.index, x, sampler_.next_2d());
     if (!light)
         return;
-    const float p_phase = HenyeyGreenstein{medium.g}.eval(state.ray.direction, light->direction);
-    const Rgb unshadowed =
-        medium.transmittance(light->distance) * light->radiance * (p_phase / light->pdf / choice.probability);
-    if (is_black(unshadowed) || occluded(x, *light))
+    const float p_phase = medium.phase().eval(state.ray.direction, light->direction);
+    const Rgb unshadowed = medium.transmittance({x, light->direction}, light->distance) * light->radiance *
+                           (p_phase / light->pdf / choice.probability);
+    if (is_black(unshadowed))
+        return;
+    const Rgb arriving = unshadowed * visibility(x, *light);
+    if (is_black(arriving))
         return;
     const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);
-    aov_of_scattering(state, PathClass::medium) += state.beta * unshadowed * weight;
+    aov_of_scattering(state, PathClass::medium) += state.beta * arriving * weight;
 }
 
 } // namespace glimmer

@@ -13,6 +13,7 @@
 #include "integrator/path/path_state.h"
 #include "integrator/path/tuning.h"
 #include "integrator/roulette.h"
+#include "integrator/visibility.h"
 #include "light/equiangular_table.h"
 #include "sampling/dimensions.h"
 
@@ -42,8 +43,7 @@ class PathSample {
     PathSample(const PathContext &context, Sampler &sampler, TraceContext &trace)
         : context_(context), sampler_(sampler), trace_(trace) {
         if (F.medium && scene().medium) {
-            const Rgb &s = scene().medium->sigma_t;
-            sigma_ = std::min(s.r, std::min(s.g, s.b));
+            sigma_ = scene().medium->least_extinction();
         }
     }
 
@@ -76,12 +76,12 @@ class PathSample {
 
     void follow(State &state);
     /// The medium along the segment; null where there is none.
-    const HomogeneousMedium *medium_of(const State &state) const {
-        return F.medium && scene().medium && state.interior.empty() ? &*scene().medium : nullptr;
+    const Medium *medium_of(const State &state) const {
+        return F.medium ? state.interior.medium(scene().outside()) : nullptr;
     }
     /// Transmittance as far as absorption alone goes, of the channel that is absorbed least.
-    static float least_absorbed(const HomogeneousMedium &medium, float t) {
-        return std::exp(-optical_depth(std::min(medium.sigma_a.r, std::min(medium.sigma_a.g, medium.sigma_a.b)), t));
+    static float least_absorbed(const Medium &medium, float t) {
+        return std::exp(-optical_depth(medium.least_absorption(), t));
     }
 
     // The AOV that light counts for
@@ -110,22 +110,22 @@ class PathSample {
     /// Whether light that was scattered before reaches the medium by light vertices. Only asked where it scatters.
     bool has_light_vertices() const { return !F.medium_walks || context_.light_vertices; }
     /// Samples gather points in the medium along the segment, several where the camera sees it, and gathers at each.
-    void gather_along(const State &state, float end, const HomogeneousMedium &medium);
+    void gather_along(const State &state, float end, const Medium &medium);
     /// Adds the light that the medium at state.ray.origin scatters back along the ray after it was scattered before:
     /// the bounded connections to the light vertices now, what they leave out by the compensation ray that `state`
     /// becomes. False if roulette ended it. points: the number of gather points of the segment. t: the distance of the
     /// point from where the camera's ray starts, 0 where the point is not on that ray and so no splats count.
     bool gather(State &state, float points, float t, float roulette_scale);
     /// Follows a compensation ray to the next vertex.
-    void compensate(State &state, const HomogeneousMedium &medium);
+    void compensate(State &state, const Medium &medium);
 
     // Emission that a segment meets
 
     void add_emission(const State &state, const Hit &hit, const Interaction &surface, const Rgb &emission,
-                      const HomogeneousMedium *medium);
-    void add_lamps(const State &state, float end, const HomogeneousMedium *medium);
-    void add_infinity(const State &state, const HomogeneousMedium *medium);
-    void add_emitted(const State &state, const Rgb &radiance, float distance, const HomogeneousMedium *medium);
+                      const Medium *medium);
+    void add_lamps(const State &state, float end, const Medium *medium);
+    void add_infinity(const State &state, const Medium *medium);
+    void add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium);
     /// Whether the ray could meet a light; false only where it certainly does not.
     bool may_meet_light(const Ray &ray) const;
     /// The weight of emission met at the end of a segment against light sampling at, or before, its beginning.
@@ -179,18 +179,17 @@ class PathSample {
 
     /// Adds the light of the scene's lights that the medium scatters once into the segment. split: a path goes on from
     /// within the segment as well as from its end.
-    void sample_lights_along(const State &state, float end, const HomogeneousMedium &medium, bool split);
+    void sample_lights_along(const State &state, float end, const Medium &medium, bool split);
     /// Lets one path go on from within the segment, as it is given that it scatters there.
-    void split_into_medium(const State &state, float end, const HomogeneousMedium &medium);
+    void split_into_medium(const State &state, float end, const Medium &medium);
     /// Free flight along the segment. True when the path scattered before its end; else the throughput is that of a
     /// path that passed.
-    bool fly_into_medium(State &state, float end, const HomogeneousMedium &medium);
+    bool fly_into_medium(State &state, float end, const Medium &medium);
     /// Lets the path go on from a scattering point at t, sampled with density `pdf`.
-    void scatter_in_medium(const State &state, float end, const HomogeneousMedium &medium, float t, const Rgb &weight,
-                           float pdf);
+    void scatter_in_medium(const State &state, float end, const Medium &medium, float t, const Rgb &weight, float pdf);
     /// Adds the light of one light at a scattering point. by_chance: the path that goes on from there may meet the same
     /// light by chance, so both are weighted against each other.
-    void sample_light_in_medium(const State &state, const Vec3f &x, const HomogeneousMedium &medium, bool by_chance);
+    void sample_light_in_medium(const State &state, const Vec3f &x, const Medium &medium, bool by_chance);
 
     // Surfaces
 
@@ -240,10 +239,10 @@ class PathSample {
         ++trace_.rays;
         return F.bvh ? scene().accel->intersect(ray) : scene().accel->intersect_few(ray);
     }
-    /// Whether something stands between a point and a light sample. origin_offset: how far the origin was moved off its
+    /// What arrives at a point of a light sample (visibility.h). origin_offset: how far the origin was moved off its
     /// surface at most. An emissive triangle must not shadow itself: the ray ends short of it by the errors of both
     /// ends, as they are seen along its plane.
-    bool occluded(const Vec3f &origin, const LightSample &light, float origin_offset = 0);
+    Rgb visibility(const Vec3f &origin, const LightSample &light, float origin_offset = 0);
     /// Russian roulette, see roulette.h. The probability is capped at 1: a cap below that would let the weights of
     /// paths between surfaces of high albedo grow without bound.
     bool survives(State &state, const Vec3f &x, float roulette_scale);

@@ -18,6 +18,7 @@ struct Absent {};
 /// Stands in for the interior stack where a scene has no dielectrics: a path is never within one.
 struct NoInterior {
     static constexpr bool empty() { return true; }
+    static const Medium *medium(const Medium *outside) { return outside; }
 };
 
 /// What sampled the direction of a segment.

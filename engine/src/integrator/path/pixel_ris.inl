@@ -36,8 +36,8 @@ void PathSample<F>::pixel_ris() {
             continue;
         point.surface = scene().interaction(point.ray, *hit);
         point.beta = Rgb(1.0f / kRisCandidates);
-        if (F.medium && scene().medium)
-            point.beta *= scene().medium->transmittance(hit->t);
+        if constexpr (F.medium)
+            point.beta *= transmittance(scene().outside(), point.ray, hit->t);
         point.shading = shade(point.surface, point.ray);
         const float expected = ris_target(scene(), point.surface, point.shading.bsdf, -point.ray.direction, sigma_);
         point.expected = max_component(point.beta) * expected;

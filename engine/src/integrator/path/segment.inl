@@ -13,7 +13,7 @@ namespace glimmer {
 
 template <KernelFeatures F>
 void PathSample<F>::follow(State &state) {
-    const HomogeneousMedium *medium = medium_of(state);
+    const Medium *medium = medium_of(state);
     if (state.compensates())
         return compensate(state, *medium);
     const std::optional<Hit> hit = intersect(state.ray);
@@ -51,9 +51,9 @@ void PathSample<F>::follow(State &state) {
                 return;
         }
         if (split && surface)
-            state.beta *= medium->transmittance(end);
+            state.beta *= medium->transmittance(state.ray, end);
     } else if (medium && surface) {
-        state.beta *= medium->transmittance(end);
+        state.beta *= medium->transmittance(state.ray, end);
     }
     if (!surface)
         return;
@@ -80,7 +80,7 @@ bool PathSample<F>::may_meet_light(const Ray &ray) const {
 
 template <KernelFeatures F>
 void PathSample<F>::add_emission(const State &state, const Hit &hit, const Interaction &surface, const Rgb &emission,
-                                 const HomogeneousMedium *medium) {
+                                 const Medium *medium) {
     if (is_black(emission))
         return;
     float weight = 1;
@@ -98,7 +98,7 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
 }
 
 template <KernelFeatures F>
-void PathSample<F>::add_lamps(const State &state, float end, const HomogeneousMedium *medium) {
+void PathSample<F>::add_lamps(const State &state, float end, const Medium *medium) {
     if (!F.other_lights || state.depth == 0) // the camera does not see lamps
         return;
     Ray ray = state.ray;
@@ -109,7 +109,7 @@ void PathSample<F>::add_lamps(const State &state, float end, const HomogeneousMe
 }
 
 template <KernelFeatures F>
-void PathSample<F>::add_infinity(const State &state, const HomogeneousMedium *medium) {
+void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
     if (!F.other_lights)
         return;
     for (uint32_t light : scene().lights.infinite()) {
@@ -122,9 +122,8 @@ void PathSample<F>::add_infinity(const State &state, const HomogeneousMedium *me
 }
 
 template <KernelFeatures F>
-void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float distance,
-                                const HomogeneousMedium *medium) {
-    aov_of_emission(state) += state.beta * radiance * (medium ? medium->transmittance(distance) : Rgb(1));
+void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium) {
+    aov_of_emission(state) += state.beta * radiance * transmittance(medium, state.ray, distance);
 }
 
 template <KernelFeatures F>
@@ -153,15 +152,13 @@ float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, con
 }
 
 template <KernelFeatures F>
-bool PathSample<F>::occluded(const Vec3f &origin, const LightSample &light, float origin_offset) {
-    ++trace_.rays;
+Rgb PathSample<F>::visibility(const Vec3f &origin, const LightSample &light, float origin_offset) {
     constexpr float direction_error = 0x1p-21f; // of a unit vector in float32, and of Embree's own arithmetic
     const float short_of_light =
         light.distance * (1 - direction_error / light.facing) - (light.error + origin_offset) / light.facing;
     const float distance = std::max(short_of_light, 0.0f);
     const Ray ray{origin, light.direction, distance};
-    return F.bvh ? scene().accel->occluded(ray, light.ignored_sphere)
-                 : scene().accel->occluded_by_few(ray, light.ignored_sphere);
+    return glimmer::visibility<F.bvh>(scene(), ray, trace_, light.ignored_sphere);
 }
 
 template <KernelFeatures F>

@@ -140,7 +140,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
     if (scene().lights.size() == 0)
         return;
     const bool camera = state.depth == 0, several = state.seen_directly();
-    const HomogeneousMedium *medium = medium_of(state);
+    const Medium *medium = medium_of(state);
     const Vec3f x = light_sampling_origin(surface, geometric);
     struct Candidate {
         LightSample light;
@@ -163,7 +163,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         const Rgb f_cos = eval(bsdf, wo, wi);
         Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
         if (medium)
-            value *= medium->transmittance(light->distance);
+            value *= medium->transmittance({x, light->direction}, light->distance);
         if (lobes != Lobes::all)
             value *= fraction_of(lobes, bounded_fraction(f_cos, wo.z, wi.z));
         if (!light->delta && !is_black(value))
@@ -181,8 +181,10 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         const float tested = few_rays ? std::min(kShadowRaysBeyondFirstSurface * c.part / parts, 1.0f) : 1.0f;
         if (tested < 1 && !(sampler_.next_1d() < tested))
             continue;
-        if (!occluded(surface.origin_towards(c.light.direction), c.light, surface.error))
-            sum += state.beta * c.value * (1 / tested);
+        const Vec3f origin = surface.origin_towards(c.light.direction);
+        const Rgb arriving = c.value * visibility(origin, c.light, surface.error);
+        if (!is_black(arriving))
+            sum += state.beta * arriving * (1 / tested);
     }
 }
 

@@ -11,13 +11,13 @@
 namespace glimmer {
 
 template <KernelFeatures F>
-void PathSample<F>::gather_along(const State &state, float end, const HomogeneousMedium &medium) {
+void PathSample<F>::gather_along(const State &state, float end, const Medium &medium) {
     const uint32_t n = state.seen_directly() ? context_.light_vertices->settings.gathers : 1;
     const uint64_t stratum = ~0ull / n;
     for (uint32_t k = 0; k < n; ++k) {
         const uint64_t bits = stratum * k + sampler_.next_bits() / n;
         const Collision c =
-            sample_collision(medium, state.beta, end, medium.monochromatic ? 0 : sampler_.next_1d(), bits);
+            medium.sample_collision(state.ray, state.beta, end, medium.monochromatic() ? 0 : sampler_.next_1d(), bits);
         if (!(c.pdf > 0))
             return;
         push(state);
@@ -46,7 +46,7 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
     state.medium_compensation_radius = k * context_.light_vertices->settings.medium_clamp_distance;
     state.surface_compensation_radius = k * context_.light_vertices->settings.surface_clamp_distance;
     const Vec3f seen = state.ray.direction;
-    state.ray = {x, HenyeyGreenstein{scene().medium->g}.sample(seen, sampler_.next_2d()).direction};
+    state.ray = {x, scene().medium->phase().sample(seen, sampler_.next_2d()).direction};
     const float splat = t > 0 ? sampler_.next_1d() : 1;
     if constexpr (F.surfaces) // nothing else sends beams
         state.splatted = t > 0 && splat < splat_fraction(scene().camera.footprint(t), seen, state.ray.direction,
@@ -60,7 +60,7 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
 }
 
 template <KernelFeatures F>
-void PathSample<F>::compensate(State &state, const HomogeneousMedium &medium) {
+void PathSample<F>::compensate(State &state, const Medium &medium) {
     const float medium_compensation_radius = state.medium_compensation_radius,
                 surface_compensation_radius = state.surface_compensation_radius;
     const bool splatted = state.splatted;
@@ -73,7 +73,7 @@ void PathSample<F>::compensate(State &state, const HomogeneousMedium &medium) {
     const std::optional<Hit> hit = intersect(state.ray);
     const float end = hit ? hit->t : reach;
     state.ray.t_max = kInfinity;
-    const FreeFlight flight = sample_free_flight(medium, state.beta, end, sampler_);
+    const FreeFlight flight = medium.sample_free_flight(state.ray, state.beta, end, sampler_);
     state.beta *= flight.weight;
     if (flight.scattered) {
         if (flight.t > medium_compensation_radius)

@@ -2,6 +2,7 @@
 #include "integrator/vpl/block_vertices.h"
 
 #include "integrator/simd/kernels.h"
+#include "integrator/visibility.h"
 #include "integrator/vpl/connection.h"
 #include "integrator/vpl/tuning.h"
 #include "medium/phase.h"
@@ -20,10 +21,6 @@ VertexColumns columns(const MediumVertices &v, size_t first) {
     if (!v.directed)
         return {from(v.x), from(v.y), from(v.z), from(v.r), from(v.g), from(v.b), nullptr, nullptr, nullptr};
     return {from(v.x), from(v.y), from(v.z), from(v.r), from(v.g), from(v.b), from(v.dx), from(v.dy), from(v.dz)};
-}
-
-float mean_extinction(const HomogeneousMedium &medium) {
-    return (medium.sigma_t.r + medium.sigma_t.g + medium.sigma_t.b) / 3;
 }
 
 /// Systematic resampling: draws `count` of the entries with one random number and calls pick(k, j, 1 / (p_j * count)),
@@ -97,7 +94,7 @@ void BlockVertices::pick_medium(const MediumVertices &vertices, const std::vecto
     for (const Vec3f &q : points)
         seen.push_back({q.x, q.y, q.z, 0, 0, 0});
     // The vertices that do not fill a register keep a target of 0 and are drawn uniformly.
-    simd_kernels().weigh(simd_view(*scene_.medium), columns(vertices, 0), n - n % kSimdLanes, seen.data(), seen.size(),
+    simd_kernels().weigh(scene_.medium->simd_view(), columns(vertices, 0), n - n % kSimdLanes, seen.data(), seen.size(),
                          tuning::kTargetClampFactor * settings_.medium_clamp_distance, targets.data());
     for (size_t j = 0; j < n; ++j) {
         powers[j] = mean_component(vertices.power(j));
@@ -120,7 +117,7 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
     const float u = sampler.next_1d();
     if (vertices.empty())
         return;
-    const float sigma = mean_extinction(*scene_.medium);
+    const float sigma = scene_.medium->mean_extinction();
     const float clamp2 = tuning::kTargetClampFactor * tuning::kTargetClampFactor * settings_.surface_clamp_distance *
                          settings_.surface_clamp_distance;
     std::vector<float> targets(vertices.size()), powers(vertices.size());
@@ -157,8 +154,8 @@ Bsdf BlockVertices::shade(const SurfaceVertex &v) {
 }
 
 Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, TraceContext &rays) const {
-    const HomogeneousMedium &medium = *scene_.medium;
-    const HenyeyGreenstein phase{medium.g};
+    const Medium &medium = *scene_.medium;
+    const HenyeyGreenstein phase = medium.phase();
     const bool isotropic = !medium_.directed;
     const uint32_t subset = std::min(uint32_t(sampler.next_1d() * float(settings_.subsets)), settings_.subsets - 1);
     alignas(64) std::array<float, tuning::kMediumPicks> medium_parts;
@@ -175,7 +172,7 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
     ConnectionSums medium_sums{};
     if (medium_count) {
         const SeenPoint point{x.x, x.y, x.z, seen.x, seen.y, seen.z};
-        medium_sums = simd_kernels().connect(simd_view(medium), columns(medium_, medium_first), medium_count, point,
+        medium_sums = simd_kernels().connect(medium.simd_view(), columns(medium_, medium_first), medium_count, point,
                                              medium_clamp_distance, medium_parts.data());
         total = Rgb(medium_sums.r, medium_sums.g, medium_sums.b);
         parts = medium_sums.part;
@@ -192,7 +189,7 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
         const Connection c = connect(v, surface[k].bsdf, to_point / d);
         const float scale =
             c.bounded * phase.eval(seen, -to_point / d) / (d2 + surface_clamp_distance * surface_clamp_distance);
-        surface_values[k] = c.factor * v.power * medium.transmittance(d) * scale;
+        surface_values[k] = c.factor * v.power * medium.transmittance({v.position, to_point / d}, d) * scale;
         surface_parts[k] = mean_component(surface_values[k]);
         total += surface_values[k];
         parts += surface_parts[k];
@@ -201,15 +198,17 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
         return total;
 
     // One shadow ray corrects the sum, which took every vertex for visible (docs/method.md, section 4).
+    const auto corrected = [&](const Rgb &value, float part, const Ray &ray) {
+        const Rgb arriving = ray.t_max > 0 ? visibility(scene_, ray, rays) : Rgb(1);
+        return arriving == Rgb(1) ? total : total - value * (Rgb(1) - arriving) * (parts / part);
+    };
     float left = sampler.next_1d() * parts;
-    ++rays.rays;
     for (size_t k = 0; k < surface_count; ++k) {
         if (surface_parts[k] > 0 && left < surface_parts[k]) {
             const SurfaceVertex &v = surface[k].vertex;
             const Vec3f from = v.position + v.geometric * v.error, way = x - from;
             const float d = length(way);
-            const bool hidden = d > 0 && scene_.accel->occluded({from, way / d, d});
-            return hidden ? total - surface_values[k] * (parts / surface_parts[k]) : total;
+            return corrected(surface_values[k], surface_parts[k], {from, way / d, d});
         }
         left -= surface_parts[k];
     }
@@ -221,13 +220,11 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
     const size_t j = medium_first + k;
     const Vec3f way = medium_.position(j) - x;
     const float d = length(way);
-    if (!(d > 0) || !scene_.accel->occluded({x, way / d, d}))
-        return total;
     const float phases = isotropic ? kIsotropicPhase * kIsotropicPhase
                                    : phase.eval(seen, way / d) * phase.eval(medium_.direction(j), -way / d);
-    const Rgb value =
-        medium_.power(j) * medium.transmittance(d) * (phases / (d * d + medium_clamp_distance * medium_clamp_distance));
-    return total - value * (parts / medium_parts[k]);
+    const Rgb value = medium_.power(j) * medium.transmittance({x, way / d}, d) *
+                      (phases / (d * d + medium_clamp_distance * medium_clamp_distance));
+    return corrected(value, medium_parts[k], {x, way / d, d});
 }
 
 } // namespace glimmer

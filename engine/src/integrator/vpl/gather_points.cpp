@@ -16,9 +16,9 @@ std::vector<Vec3f> sample_gather_points(const Scene &scene, const Rectangle &pix
         const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
         const auto hit = scene.accel->intersect(ray);
         ++rays.rays;
-        const float u_channel = scene.medium->monochromatic ? 0 : sampler.next_1d();
+        const float u_channel = scene.medium->monochromatic() ? 0 : sampler.next_1d();
         const uint64_t bits = ~0ull / count * i + sampler.next_bits() / count;
-        const Collision c = sample_collision(*scene.medium, Rgb(1), hit ? hit->t : kInfinity, u_channel, bits);
+        const Collision c = scene.medium->sample_collision(ray, Rgb(1), hit ? hit->t : kInfinity, u_channel, bits);
         if (c.pdf > 0)
             points.push_back(ray.origin + ray.direction * c.t);
     }

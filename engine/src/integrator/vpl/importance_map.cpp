@@ -10,9 +10,9 @@ namespace glimmer {
 ImportanceMap::ImportanceMap(const Scene &scene, std::vector<Vec3f> gather_points) : points_(std::move(gather_points)) {
     if (!scene.medium)
         return;
-    const float majorant = max_component(scene.medium->sigma_t);
+    const float majorant = scene.medium->majorant();
     softening2_ = tuning::kImportanceSoftening2 / (majorant * majorant);
-    kappa_ = effective_attenuation(*scene.medium);
+    kappa_ = scene.medium->effective_attenuation();
 }
 
 float ImportanceMap::operator()(const Vec3f &x) const {

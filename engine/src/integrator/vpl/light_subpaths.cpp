@@ -44,7 +44,7 @@ class LightSubpath {
     struct Branch {
         Ray ray;
         Rgb power;
-        InteriorStack glass;
+        InteriorStack interior;
         bool from_delta;             ///< comes from a light without size and has not been scattered yet
         uint32_t specular_depth = 0; ///< mirrors and dielectrics in a row
         float remainder =
@@ -56,11 +56,12 @@ class LightSubpath {
         ++rays_.rays;
         const float own_end = path.ray.t_max; // finite only within a see-through ball light, where the ray ends
         path.ray.t_max = kInfinity;
-        if (scene_.medium && path.glass.empty()) {
-            const FreeFlight flight = sample_free_flight(*scene_.medium, path.power, hit ? hit->t : own_end, sampler_);
+        if (const Medium *medium = path.interior.medium(scene_.outside())) {
+            const FreeFlight flight =
+                medium->sample_free_flight(path.ray, path.power, hit ? hit->t : own_end, sampler_);
             path.power *= flight.weight;
             if (flight.scattered)
-                return scatter_in_medium(path, path.ray.origin + path.ray.direction * flight.t);
+                return scatter_in_medium(path, *medium, path.ray.origin + path.ray.direction * flight.t);
         }
         if (hit)
             scatter_at_surface(path, *hit);
@@ -100,7 +101,7 @@ class LightSubpath {
             go_on(path);
     }
 
-    void scatter_in_medium(Branch &path, const Vec3f &x) {
+    void scatter_in_medium(Branch &path, const Medium &medium, const Vec3f &x) {
         const float weight = apply_window(path, x);
         if (weight == 0)
             return;
@@ -110,7 +111,7 @@ class LightSubpath {
             next.from_delta = false;
             next.specular_depth = 0;
             next.remainder = 0;
-            next.ray = {x, HenyeyGreenstein{scene_.medium->g}.sample(before, sampler_.next_2d()).direction};
+            next.ray = {x, medium.phase().sample(before, sampler_.next_2d()).direction};
             branches_.push_back(next);
         });
     }
@@ -142,7 +143,7 @@ class LightSubpath {
             return;
         if (!is_specular(bsdf))
             out_.surface.push_back(v);
-        if (scene_.medium && path.glass.empty() && !is_bounded(max_value(bsdf))) {
+        if (path.interior.medium(scene_.outside()) && !is_bounded(max_value(bsdf))) {
             const auto directions =
                 uint32_t(float(tuning::kSplatDirections) * std::min(weight, tuning::kMostSplatWeight));
             for (uint32_t k = 0; k < directions; ++k) {
@@ -246,7 +247,7 @@ class LightSubpath {
     void cross_dielectric(Branch &path, const Interaction &surface, const Material &material) {
         if (path.from_delta || !survives_specular(path))
             return;
-        DielectricCrossing crossing(surface, material, path.ray.direction, path.glass);
+        DielectricCrossing crossing(surface, material, path.ray.direction, path.interior);
         const bool bent = !(crossing.shading == crossing.geometric);
         if (bent && crossing.about_shading && crossing.may_leave_beneath_horizon()) {
             const bool on_shading = sampler_.next_1d() < 1 - tuning::kTrueDielectricShare;
@@ -265,9 +266,9 @@ class LightSubpath {
                 scale_of_flux(crossing.frame.z, crossing.geometric, crossing.back, direction, std::abs(s.wi.z));
         }
         if (s.transmitted)
-            path.glass = crossing.beyond;
+            path.interior = crossing.beyond;
         leave(path, surface, direction, 1);
-        if (scene_.medium && path.glass.empty())
+        if (path.interior.medium(scene_.outside()))
             splat_remainder(path);
         branches_.push_back(path);
     }
@@ -309,7 +310,7 @@ std::vector<double> start_shares(const LightSet &lights, const ImportanceMap &im
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
                                    Sampler &sampler, TraceContext &rays) {
     LightVertices out;
-    out.medium.directed = scene.medium && scene.medium->g != 0;
+    out.medium.directed = scene.medium && scene.medium->phase().g != 0;
     const LightSet &lights = scene.lights;
     const std::vector<double> shares = start_shares(lights, importance);
     LightSubpath subpath(scene, importance, settings, sampler, rays, out);

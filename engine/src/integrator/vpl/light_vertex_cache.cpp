@@ -20,13 +20,13 @@ struct LightVertexWave final : WaveData {
     LightVertices vertices;
 };
 
-bool has_narrow_peak(const HomogeneousMedium &medium) {
-    return medium.g > tuning::kMostForwardG || medium.g < tuning::kMostBackwardG;
+bool has_narrow_peak(const HenyeyGreenstein &phase) {
+    return phase.g > tuning::kMostForwardG || phase.g < tuning::kMostBackwardG;
 }
 
 bool is_dense_and_white(const Scene &scene) {
-    return scene.bounds_radius * max_component(scene.medium->sigma_t) > tuning::kDenseRadius &&
-           scene.bounds_radius * effective_attenuation(*scene.medium) < tuning::kDiffuseRadius;
+    return scene.bounds_radius * scene.medium->majorant() > tuning::kDenseRadius &&
+           scene.bounds_radius * scene.medium->effective_attenuation() < tuning::kDiffuseRadius;
 }
 
 bool has_finite_light(const Scene &scene) {
@@ -73,9 +73,9 @@ std::unique_ptr<const BlockData> LightVertexCache::prepare_block(const WaveData 
 std::unique_ptr<const LightVertexCache> plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
                                                                 const InteriorStack &around_camera) {
     const DepthLimits none;
-    if (!scene.medium || !scene.medium->scatters() || has_narrow_peak(*scene.medium) || !around_camera.empty() ||
-        limits.depth != none.depth || limits.scatter != none.scatter || is_dense_and_white(scene) ||
-        !has_finite_light(scene))
+    if (!scene.medium || !scene.medium->scatters() || has_narrow_peak(scene.medium->phase()) ||
+        !around_camera.empty() || limits.depth != none.depth || limits.scatter != none.scatter ||
+        is_dense_and_white(scene) || !has_finite_light(scene))
         return nullptr;
     return std::make_unique<LightVertexCache>(scene, around_camera);
 }

@@ -2,6 +2,7 @@
 #include "integrator/vpl/splat.h"
 
 #include "camera/camera_sample.h"
+#include "integrator/visibility.h"
 #include "integrator/vpl/tuning.h"
 #include "medium/phase.h"
 #include "sampling/warp.h"
@@ -44,25 +45,24 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, con
                 bottom = std::min(v + half, float(film.crop_y + film.crop_height) - 0.5f);
     if (!(left <= right && top <= bottom))
         return;
+    const Ray way{seen->start, seen->direction, seen->t};
     const float pixel_area = seen->area(float(film.width) * float(film.height)); // if the filter were a point
-    const Rgb radiance = power * scene.medium->transmittance(seen->t) *
-                         (HenyeyGreenstein{scene.medium->g}.eval(seen->direction, -direction) *
+    const Rgb radiance = power * scene.medium->transmittance(way, seen->t) *
+                         (scene.medium->phase().eval(seen->direction, -direction) *
                           splat_fraction(camera.footprint(seen->t), seen->direction, direction, settings) / pixel_area);
     if (is_black(radiance))
         return;
-    bool visible = false;
+    std::optional<Rgb> arriving;
     for (float py = top; py <= bottom; ++py)
         for (float px = left; px <= right; ++px) {
             const float weight = filter_density(film, u - px - 0.5f) * filter_density(film, v - py - 0.5f);
             if (!(weight > 0))
                 continue;
-            if (!visible) {
-                ++rays.rays;
-                if (scene.accel->occluded({seen->start, seen->direction, seen->t}))
-                    return;
-                visible = true;
-            }
-            out.push_back({uint32_t(px), uint32_t(py), radiance * weight});
+            if (!arriving)
+                arriving = radiance * visibility(scene, way, rays);
+            if (is_black(*arriving))
+                return;
+            out.push_back({uint32_t(px), uint32_t(py), *arriving * weight});
         }
 }
 
@@ -78,17 +78,19 @@ void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings 
     const RayInterval seen = range_in_picture(scene, segment.ray);
     if (!(seen.begin < seen.end))
         return;
-    const HomogeneousMedium &medium = *scene.medium;
-    const float extinction = least_scattering_extinction(medium);
+    const Medium &medium = *scene.medium;
+    const float extinction = medium.least_scattering_extinction();
     for (uint32_t k = 0; k < tuning::kSplatPoints; ++k) {
         const float u = (float(k) + sampler.next_1d()) / tuning::kSplatPoints;
         const PointOnRay at = scene.camera.sample_seen(segment.ray, seen, extinction, u);
         const float t = at.t, pdf = at.pdf * tuning::kSplatPoints;
         if (!(pdf > 0) || !(t >= 0 && t < kInfinity))
             continue;
-        splat_point(scene, segment.ray.origin + segment.ray.direction * t, segment.ray.direction,
-                    segment.power * medium.sigma_s * medium.transmittance(t) * (segment.remainder / pdf), settings,
-                    sampler, rays, out);
+        const Vec3f x = segment.ray.origin + segment.ray.direction * t;
+        splat_point(scene, x, segment.ray.direction,
+                    segment.power * medium.scattering(x) * medium.transmittance(segment.ray, t) *
+                        (segment.remainder / pdf),
+                    settings, sampler, rays, out);
     }
 }
 

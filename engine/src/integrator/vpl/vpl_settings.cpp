@@ -45,15 +45,14 @@ std::vector<float> densities_about(const std::vector<Vec3f> &points, const Mediu
 }
 
 /// d0^2 = sigma / (4 pi density): a vertex at that distance brings about as much as all light of its neighbourhood.
-float clamp_distance(const HomogeneousMedium &medium, std::vector<float> &pilot_densities, uint32_t pilot_paths,
-                     uint32_t paths) {
-    const float sigma = max_component(medium.sigma_t);
+float clamp_distance(const Medium &medium, std::vector<float> &pilot_densities, uint32_t pilot_paths, uint32_t paths) {
+    const float sigma = medium.majorant();
     float d0 = tuning::kClampDistanceWithoutVertices / sigma;
     if (!pilot_densities.empty()) {
         const float density = median(pilot_densities) * float(paths) / float(pilot_paths);
         d0 = std::min(std::sqrt(sigma / (4 * kPi * density)), tuning::kMostClampDistance / sigma);
     }
-    return d0 * std::pow(HenyeyGreenstein{medium.g}.peak() / kIsotropicPhase, tuning::kClampPowerOfPhasePeak);
+    return d0 * std::pow(medium.phase().peak() / kIsotropicPhase, tuning::kClampPowerOfPhasePeak);
 }
 
 } // namespace
@@ -88,7 +87,7 @@ VplSettings make_vpl_settings(const Scene &scene, const InteriorStack &around_ca
         settings.median_distance = median(distances);
         settings.splat_clamp_distance = tuning::kSplatClampFactor * scene.camera.footprint(settings.median_distance);
     }
-    settings.effective_attenuation = effective_attenuation(*scene.medium);
+    settings.effective_attenuation = scene.medium->effective_attenuation();
     return settings;
 }
 
