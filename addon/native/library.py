@@ -7,6 +7,7 @@ Inside Blender this must run after `import bpy`: loaded first, the host binds to
 import ctypes
 import os
 from ctypes import POINTER, byref, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_void_p
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import TypeVar
@@ -33,6 +34,8 @@ _SIGNATURES: dict[str, tuple[object, list[object]]] = {
     "glimmer_image_destroy": (None, [c_void_p]),
     "glimmer_scene_create": (_RESULT, [POINTER(c_void_p)]),
     "glimmer_scene_destroy": (None, [c_void_p]),
+    "glimmer_material_info": (POINTER(structs.MaterialInfo), [c_uint32]),
+    "glimmer_parameter_info": (POINTER(structs.ParameterInfo), [c_uint32]),
     "glimmer_scene_add_material": (_RESULT, [c_void_p, POINTER(structs.MaterialDesc), POINTER(c_uint32)]),
     "glimmer_scene_add_object": (_RESULT, [c_void_p, POINTER(structs.ObjectDesc)]),
     "glimmer_scene_add_spheres": (_RESULT, [c_void_p, POINTER(structs.SpheresDesc)]),
@@ -71,6 +74,41 @@ def candidates() -> list[Path]:
     return [package / "lib" / FILE_NAME, package.parent / "build" / "lib" / FILE_NAME]
 
 
+@dataclass(frozen=True)
+class ParameterRow:
+    """A row of the engine's table of the parameters of materials; see glimmer_parameter_info_t."""
+
+    type: str
+    key: str
+    kind: structs.ParameterKind
+    required: bool
+    alternative: int
+    low: float
+    high: float
+    above_low: bool
+    value: float
+    words: tuple[str, ...]
+    noun: str
+    help: str
+
+    @staticmethod
+    def read(info: structs.ParameterInfo) -> "ParameterRow":
+        return ParameterRow(
+            info.type.decode(),
+            info.key.decode(),
+            structs.ParameterKind(info.kind),
+            bool(info.required),
+            info.alternative,
+            info.low,
+            info.high,
+            bool(info.above_low),
+            info.value,
+            tuple(info.words.decode().split()),
+            info.noun.decode(),
+            info.help.decode(),
+        )
+
+
 class Library:
     """The loaded engine. Calls go through `call`, which turns a failure into a GlimmerError with the engine's words."""
 
@@ -80,6 +118,7 @@ class Library:
             self._library = ctypes.CDLL(str(path))
         except OSError as error:
             raise GlimmerError(f"The engine's library {path} cannot be loaded: {error}") from error
+        self._materials: dict[str, dict[str, ParameterRow]] = {}
         self._declare()
         self._check()
 
@@ -147,6 +186,18 @@ class Library:
     def passes(self) -> dict[str, tuple[int, str]]:
         """name: (number, channels) of each."""
         return {name: (i, kind) for i, (name, kind, _) in enumerate(self._table("glimmer_pass_info"))}
+
+    def materials(self) -> dict[str, dict[str, ParameterRow]]:
+        """By type, the parameters of each by key."""
+        if not self._materials:
+            while entry := self._library.glimmer_material_info(len(self._materials)):
+                self._materials[entry.contents.type.decode()] = {}
+            number = 0
+            while entry := self._library.glimmer_parameter_info(number):
+                row = ParameterRow.read(entry.contents)
+                self._materials[row.type][row.key] = row
+                number += 1
+        return self._materials
 
     def _table(self, name: str) -> list[tuple[str, str, str]]:
         rows: list[tuple[str, str, str]] = []

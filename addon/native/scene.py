@@ -14,7 +14,7 @@ from ..scene import description as d
 from ..scene.problems import GlimmerError
 from . import structs
 from .library import Library
-from .structs import CameraType, Filter, Format, LightType, MaterialType
+from .structs import CameraType, Filter, Format, LightType, ParameterKind
 
 
 def _contiguous_floats(array: Any) -> tuple[Any, Format]:
@@ -222,31 +222,39 @@ class _MaterialAdder:
         return [self._add(item.name, item.material) for item in materials]
 
     def _add(self, name: str, material: d.Material) -> int:
-        desc = self._library.init(structs.MaterialDesc)
-        desc.name = name.encode()
-        if isinstance(material, d.Lambert):
-            desc.type, desc.color = MaterialType.LAMBERT, material.albedo
-        elif isinstance(material, d.Mirror):
-            desc.type, desc.color = MaterialType.MIRROR, material.reflectance
-        elif isinstance(material, d.Conductor):
-            desc.type, desc.alpha = MaterialType.CONDUCTOR, material.alpha
-            if material.f0 is not None:
-                desc.use_f0, desc.f0, desc.f90 = 1, material.f0, material.f90
+        given = d.parameters(material)
+        rows = self._library.materials()[material.TYPE]
+        parameters = (structs.Parameter * len(given))()
+        for out, (key, value) in zip(parameters, given.items(), strict=True):
+            if key not in rows:
+                raise GlimmerError(f"Material '{name}': the engine's {material.TYPE} has no '{key}'")
+            out.key = key.encode()
+            if isinstance(value, d.Material):
+                out.material = self._add(f"{name}.{key}", value)
             else:
-                desc.eta, desc.k = material.eta, material.k
-        elif isinstance(material, d.Glass):
-            desc.type, desc.ior = MaterialType.GLASS, material.ior
-        elif isinstance(material, d.Mix):
-            desc.type, desc.weight = MaterialType.MIX, material.weight
-            desc.a = self._add(f"{name}, first part", material.a)
-            desc.b = self._add(f"{name}, second part", material.b)
-        elif isinstance(material, d.Light):
-            desc.type, desc.color = MaterialType.LIGHT, material.radiance
-        elif isinstance(material, d.Null):
-            desc.type = MaterialType.NULL
-        else:
-            raise GlimmerError(f"Material '{name}': {type(material).__name__} has no counterpart in the engine")
-        desc.emission = getattr(material, "emission", d.BLACK)
+                _VALUE_FILLERS[rows[key].kind](out, value)
+        desc = self._library.init(structs.MaterialDesc)
+        desc.name, desc.type = name.encode(), material.TYPE.encode()
+        desc.parameter_count, desc.parameters = len(given), parameters
         number = c_uint32()
         self._library.call("glimmer_scene_add_material", self._scene, byref(desc), byref(number))
         return number.value
+
+
+def _fill_number(out: Any, value: float) -> None:
+    out.value[0] = value
+
+
+def _fill_color(out: Any, value: d.Rgb) -> None:
+    out.value = value
+
+
+def _fill_word(out: Any, value: str) -> None:
+    out.word = value.encode()
+
+
+_VALUE_FILLERS: dict[ParameterKind, Callable[[Any, Any], None]] = {
+    ParameterKind.NUMBER: _fill_number,
+    ParameterKind.COLOR: _fill_color,
+    ParameterKind.WORD: _fill_word,
+}

@@ -5,7 +5,7 @@ import ctypes
 from ctypes import c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
 from enum import IntEnum
 
-ABI_VERSION = 1
+ABI_VERSION = 2
 
 
 class Result(IntEnum):
@@ -22,15 +22,11 @@ class Format(IntEnum):
     FLOAT64 = 1
 
 
-class MaterialType(IntEnum):
-    LAMBERT = 0
-    MIRROR = 1
-    CONDUCTOR = 2
-    GLASS = 3
-    REPORT_METAL = 4
-    MIX = 5
-    LIGHT = 6
-    NULL = 7
+class ParameterKind(IntEnum):
+    NUMBER = 0
+    COLOR = 1
+    WORD = 2
+    MATERIAL = 3
 
 
 class LightType(IntEnum):
@@ -73,25 +69,22 @@ class MeshDesc(ctypes.Structure):
     ]
 
 
+class Parameter(ctypes.Structure):
+    _fields_ = [
+        ("key", c_char_p),
+        ("value", c_float * 3),
+        ("word", c_char_p),
+        ("material", c_uint32),
+    ]
+
+
 class MaterialDesc(ctypes.Structure):
     _fields_ = [
         ("struct_size", c_size_t),
         ("name", c_char_p),
-        ("type", c_int),
-        ("color", c_float * 3),
-        ("alpha", c_float),
-        ("use_f0", c_int),
-        ("eta", c_float * 3),
-        ("k", c_float * 3),
-        ("f0", c_float * 3),
-        ("masking", c_int),
-        ("ior", c_float),
-        ("schlick_fresnel", c_int),
-        ("emission", c_float * 3),
-        ("weight", c_float),
-        ("a", c_uint32),
-        ("b", c_uint32),
-        ("f90", c_float * 3),
+        ("type", c_char_p),
+        ("parameter_count", c_size_t),
+        ("parameters", ctypes.POINTER(Parameter)),
     ]
 
 
@@ -225,6 +218,27 @@ class TileDesc(ctypes.Structure):
 
 class PassInfo(ctypes.Structure):
     _fields_ = [("name", c_char_p), ("channels", c_char_p), ("help", c_char_p), ("rule", c_int)]
+
+
+class MaterialInfo(ctypes.Structure):
+    _fields_ = [("type", c_char_p), ("mixable", c_int), ("help", c_char_p)]
+
+
+class ParameterInfo(ctypes.Structure):
+    _fields_ = [
+        ("type", c_char_p),
+        ("key", c_char_p),
+        ("kind", c_int),
+        ("required", c_int),
+        ("alternative", c_uint32),
+        ("low", c_double),
+        ("high", c_double),
+        ("above_low", c_int),
+        ("value", c_float),
+        ("words", c_char_p),
+        ("noun", c_char_p),
+        ("help", c_char_p),
+    ]
 
 
 class IntegratorInfo(ctypes.Structure):

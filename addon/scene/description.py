@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import MISSING, dataclass, field, fields
 from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,16 +64,21 @@ class Camera:
 
 
 # ---- Materials ----------------------------------------------------------------------------------------------------
+#
+# TYPE and the names of the fields are those of the engine's table of materials, which scene files share; a field that
+# has its default is not given (see `parameters`).
 
 
 @dataclass(frozen=True)
 class Lambert:
+    TYPE: ClassVar[str] = "lambert"
     albedo: Rgb
     emission: Rgb = BLACK
 
 
 @dataclass(frozen=True)
 class Mirror:
+    TYPE: ClassVar[str] = "mirror"
     reflectance: Rgb
     emission: Rgb = BLACK
 
@@ -82,21 +88,24 @@ class Conductor:
     """A rough metal: GGX of width alpha, with the exact Fresnel equations of eta + i k, or Schlick's from f0
     to f90 at grazing."""
 
+    TYPE: ClassVar[str] = "conductor"
     alpha: float
     f0: Rgb | None = None
-    eta: Rgb = WHITE
-    k: Rgb = BLACK
+    eta: Rgb | None = None
+    k: Rgb | None = None
     emission: Rgb = BLACK
     f90: Rgb = WHITE
 
 
 @dataclass(frozen=True)
 class Glass:
+    TYPE: ClassVar[str] = "glass"
     ior: float
 
 
 @dataclass(frozen=True)
 class Mix:
+    TYPE: ClassVar[str] = "mix"
     weight: float  # of a; the rest is b
     a: Surface
     b: Surface
@@ -105,16 +114,27 @@ class Mix:
 
 @dataclass(frozen=True)
 class Light:
+    TYPE: ClassVar[str] = "light"
     radiance: Rgb
 
 
 @dataclass(frozen=True)
 class Null:
-    pass
+    TYPE: ClassVar[str] = "null"
 
 
 Surface = Lambert | Mirror | Conductor | Mix  # what a mix may hold and what may also emit
 Material = Surface | Glass | Light | Null
+
+
+def parameters(material: Material) -> dict[str, Any]:
+    """What a material gives of its type's parameters, by key."""
+    given = {}
+    for item in fields(material):
+        value = getattr(material, item.name)
+        if item.default is MISSING or value != item.default:
+            given[item.name] = value
+    return given
 
 
 @dataclass(frozen=True)

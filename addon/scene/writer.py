@@ -159,30 +159,14 @@ def _camera(camera: d.Camera) -> Json:
 
 
 def _material(material: d.Material) -> Json:
-    if isinstance(material, d.Lambert):
-        result: Json = {"type": "lambert", "albedo": list(material.albedo)}
-    elif isinstance(material, d.Mirror):
-        result = {"type": "mirror", "reflectance": list(material.reflectance)}
-    elif isinstance(material, d.Conductor):
-        result = {"type": "conductor", "alpha": material.alpha}
-        if material.f0 is not None:
-            result["f0"] = list(material.f0)
-            if material.f90 != d.WHITE:
-                result["f90"] = list(material.f90)
-        else:
-            result["eta"], result["k"] = list(material.eta), list(material.k)
-    elif isinstance(material, d.Glass):
-        result = {"type": "glass", "ior": material.ior}
-    elif isinstance(material, d.Light):
-        result = {"type": "light", "radiance": list(material.radiance)}
-    elif isinstance(material, d.Mix):
-        result = {"type": "mix", "weight": material.weight, "a": _material(material.a), "b": _material(material.b)}
-    else:
-        result = {"type": "null"}
-    emission = getattr(material, "emission", d.BLACK)
-    if emission != d.BLACK:
-        result["emission"] = list(emission)
-    return result
+    return {"type": material.TYPE, **{key: _parameter(value) for key, value in d.parameters(material).items()}}
+
+
+def _parameter(value: Any) -> Any:
+    """Numbers and words as they are, colours as lists, a part of a mix in place."""
+    if isinstance(value, d.Material):
+        return _material(value)
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _radius(lamp: d.PointLight | d.SpotLight) -> Json:

@@ -19,10 +19,8 @@ inline SceneDescription empty_scene() {
 /// One more sphere that shines, of a colour of its own. hue: an angle.
 inline void add_moon(SceneDescription &scene, float hue, const Vec3d &center, double radius) {
     MaterialDescription light;
-    glimmer_material_init(&light);
-    light.type = GLIMMER_LIGHT;
-    for (size_t c = 0; c < 3; ++c)
-        light.color[c] = 20 + 10 * std::cos(hue + 2 * float(c));
+    light.type = MaterialType::light;
+    light.radiance = {20 + 10 * std::cos(hue), 20 + 10 * std::cos(hue + 2), 20 + 10 * std::cos(hue + 4)};
     SpheresDescription sphere;
     sphere.centers = {center};
     sphere.radii = {radius};

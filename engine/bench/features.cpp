@@ -27,12 +27,11 @@ constexpr Rectangle kPixels{64, 64, kBlockSize, kBlockSize};
 SceneDescription moonlit_plates(bool medium) {
     SceneDescription scene = plates(60);
     MaterialDescription &metal = scene.materials[0];
-    metal.type = GLIMMER_CONDUCTOR;
+    metal.type = MaterialType::conductor;
+    metal.alternative = 1;
     metal.alpha = 0.25f;
-    for (size_t c = 0; c < 3; ++c) {
-        metal.eta[c] = 2.6f - 0.2f * float(c);
-        metal.k[c] = 3.3f - 0.2f * float(c);
-    }
+    metal.eta = {2.6f, 2.4f, 2.2f};
+    metal.k = {3.3f, 3.1f, 2.9f};
     for (uint32_t i = 0; i < 3; ++i)
         add_moon(scene, 2.1f * float(i), {-20.0 + 20 * i, 40, 12.0 + i}, 2);
     if (medium)

@@ -36,7 +36,7 @@ inline std::shared_ptr<Mesh> plate() {
 inline SceneDescription plates(int side) {
     SceneDescription scene = empty_scene();
     MaterialDescription material;
-    glimmer_material_init(&material);
+    material.albedo = Rgb(0.5f);
     scene.materials.push_back(material);
     ObjectDescription object;
     object.mesh = plate();

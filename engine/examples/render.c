@@ -17,11 +17,13 @@ static void check(glimmer_result result) {
     exit(2);
 }
 
-static uint32_t add_material(glimmer_scene *scene, glimmer_material_type type, float r, float g, float b) {
+/* A material whose one parameter is a colour. glimmer_parameter_info lists what types and parameters there are. */
+static uint32_t add_material(glimmer_scene *scene, const char *type, const char *key, float r, float g, float b) {
+    const glimmer_parameter parameter = {.key = key, .value = {r, g, b}};
     glimmer_material_desc desc;
     glimmer_material_init(&desc); /* sets struct_size and the defaults: never fill a struct without it */
     desc.type = type;
-    desc.color[0] = r, desc.color[1] = g, desc.color[2] = b;
+    desc.parameter_count = 1, desc.parameters = &parameter;
     uint32_t material;
     check(glimmer_scene_add_material(scene, &desc, &material));
     return material;
@@ -88,9 +90,9 @@ int main(void) {
     }
     glimmer_scene *scene;
     check(glimmer_scene_create(&scene));
-    add_plate(scene, add_material(scene, GLIMMER_LAMBERT, 0.6f, 0.6f, 0.65f));
-    add_sphere(scene, -1.2, 1, 1, 1, add_material(scene, GLIMMER_MIRROR, 0.95f, 0.95f, 0.95f));
-    add_sphere(scene, 3, 6, 4, 1.2, add_material(scene, GLIMMER_LIGHT, 20, 14, 8));
+    add_plate(scene, add_material(scene, "lambert", "albedo", 0.6f, 0.6f, 0.65f));
+    add_sphere(scene, -1.2, 1, 1, 1, add_material(scene, "mirror", "reflectance", 0.95f, 0.95f, 0.95f));
+    add_sphere(scene, 3, 6, 4, 1.2, add_material(scene, "light", "radiance", 20, 14, 8));
     const double sigma_a[3] = {0.002, 0.002, 0.002}, sigma_s[3] = {0.02, 0.022, 0.026};
     check(glimmer_scene_set_medium(scene, sigma_a, sigma_s, 0));
     set_camera_and_film(scene);

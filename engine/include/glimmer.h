@@ -35,7 +35,7 @@ extern "C" {
 #endif
 
 /* Changes whenever a caller compiled against an older header would break. Compare with glimmer_abi_version(). */
-#define GLIMMER_ABI_VERSION 1
+#define GLIMMER_ABI_VERSION 2
 
 typedef enum glimmer_result {
     GLIMMER_OK = 0,
@@ -95,40 +95,53 @@ GLIMMER_API void glimmer_image_destroy(glimmer_image *image);
 GLIMMER_API glimmer_result glimmer_scene_create(glimmer_scene **scene);
 GLIMMER_API void glimmer_scene_destroy(glimmer_scene *scene);
 
-typedef enum glimmer_material_type {
-    GLIMMER_LAMBERT = 0,   /* color = albedo, 0 to 1 */
-    GLIMMER_MIRROR = 1,    /* color = reflectance, 0 to 1 */
-    GLIMMER_CONDUCTOR = 2, /* alpha; eta and k, or f0 and f90 when use_f0; masking */
-    GLIMMER_GLASS = 3,     /* ior > 0; schlick_fresnel */
-    GLIMMER_REPORT_METAL =
-        4,             /* color = albedo, f0, alpha: the student report's sum of both lobes, not energy conserving */
-    GLIMMER_MIX = 5,   /* weight of material a, the rest of b; neither may be light, glass or null */
-    GLIMMER_LIGHT = 6, /* color = radiance, >= 0: opaque, black, both sides */
-    GLIMMER_NULL = 7   /* not there */
-} glimmer_material_type;
+/* A material is a type and values for its parameters, all by name. One table in the engine says what there is: the C
+ * API checks by it, and scene files and the add-on are read and written by it. */
+typedef enum glimmer_parameter_kind {
+    GLIMMER_NUMBER = 0,
+    GLIMMER_COLOR = 1,   /* 3 numbers */
+    GLIMMER_WORD = 2,    /* one of a few words */
+    GLIMMER_MATERIAL = 3 /* another material of the scene, added before */
+} glimmer_parameter_kind;
 
-typedef enum glimmer_masking {
-    GLIMMER_SMITH = 0, /* height-correlated Smith */
-    GLIMMER_SMITH_SEPARABLE = 1,
-    GLIMMER_SCHLICK_GGX = 2 /* the report's, k = alpha / 2 */
-} glimmer_masking;
+typedef struct glimmer_material_info_t {
+    const char *type; /* "lambert", "mirror", ... as in a scene file */
+    int mixable;      /* not 0: may be a parameter of another material */
+    const char *help; /* one line */
+} glimmer_material_info_t;
+/* Null when index is out of range. */
+GLIMMER_API const glimmer_material_info_t *glimmer_material_info(uint32_t index);
+
+typedef struct glimmer_parameter_info_t {
+    const char *type; /* of the material that has it */
+    const char *key;
+    glimmer_parameter_kind kind;
+    int required;         /* not 0: must be given */
+    uint32_t alternative; /* 0, or the number of the alternative that it belongs to: the parameters of exactly one may
+                             be given, with all of that one which are required */
+    double low, high;     /* what each number may be; high may be infinite, the number itself not */
+    int above_low;        /* not 0: low itself is not allowed */
+    float value;          /* number, colour: what it is when it is not given (of a colour in all channels) */
+    const char *words;    /* of a word, parted by spaces; the first is the default */
+    const char *noun;     /* what a word of it is called: "masking function" */
+    const char *help;     /* one line */
+} glimmer_parameter_info_t;
+/* Null when index is out of range; the parameters of a type stand together. */
+GLIMMER_API const glimmer_parameter_info_t *glimmer_parameter_info(uint32_t index);
+
+typedef struct glimmer_parameter {
+    const char *key;
+    float value[3]; /* of a number the first */
+    const char *word;
+    uint32_t material;
+} glimmer_parameter;
 
 typedef struct glimmer_material_desc {
     size_t struct_size;
     const char *name; /* for messages and the report; may be null */
-    glimmer_material_type type;
-    float color[3];
-    float alpha; /* GGX width, 0 to 1 (Blender's roughness squared); below 1e-4 a mirror */
-    int use_f0;
-    float eta[3], k[3]; /* eta > 0, k >= 0 */
-    float f0[3];        /* 0 to 1 (Schlick) */
-    glimmer_masking masking;
-    float ior;
-    int schlick_fresnel; /* glass: Schlick in place of the exact Fresnel equations */
-    float emission[3];   /* radiance added on both sides, >= 0; not for light, glass and null */
-    float weight;        /* mix: 0 to 1 */
-    uint32_t a, b;       /* mix: materials added before */
-    float f90[3];        /* 0 to 1, default 1 (Schlick): f0 + (f90 - f0) (1 - cos)^5 */
+    const char *type;
+    size_t parameter_count; /* up to 64, each of another key */
+    const glimmer_parameter *parameters;
 } glimmer_material_desc;
 
 GLIMMER_API void glimmer_material_init(glimmer_material_desc *desc);

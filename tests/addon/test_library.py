@@ -4,12 +4,15 @@
 import ctypes
 import ctypes.util
 import re
+from dataclasses import MISSING, fields
 from enum import IntEnum
 from pathlib import Path
+from typing import Any, get_args
 
 import pytest
 
 from addon.native import library, structs
+from addon.scene import description as d
 from addon.scene.problems import GlimmerError
 
 
@@ -37,7 +40,7 @@ def enumerators(header: str, name: str) -> dict[str, int]:
     [
         (structs.Result, "glimmer_result"),
         (structs.Format, "glimmer_format"),
-        (structs.MaterialType, "glimmer_material_type"),
+        (structs.ParameterKind, "glimmer_parameter_kind"),
         (structs.LightType, "glimmer_light_type"),
         (structs.Filter, "glimmer_filter"),
         (structs.State, "glimmer_render_state"),
@@ -46,6 +49,42 @@ def enumerators(header: str, name: str) -> dict[str, int]:
 def test_enumerations_are_the_headers(repository: Path, enumeration: type[IntEnum], name: str) -> None:
     header = (repository / "engine" / "include" / "glimmer.h").read_text()
     assert {item.name: item.value for item in enumeration} == enumerators(header, name)
+
+
+def described_materials() -> dict[str, Any]:
+    return {kind.TYPE: kind for kind in get_args(d.Material)}
+
+
+def test_materials_are_the_engines(library_dir: Path) -> None:
+    """Each class has the name, the parameters and the defaults of a row of the engine's table."""
+    table = library.Library(library_dir / "libglimmer.so").materials()
+    for kind, material in described_materials().items():
+        own = {item.name: item for item in fields(material)}
+        assert set(own) <= set(table[kind]), kind
+        for key, row in table[kind].items():
+            if row.required and not row.alternative:
+                assert own[key].default is MISSING, f"{kind}: {key} is required"
+            elif key in own and own[key].default is not None:
+                value = row.value if row.kind is structs.ParameterKind.NUMBER else (row.value,) * 3
+                assert own[key].default == value, f"{kind}: {key}"
+
+
+def test_the_scene_formats_table_is_the_engines(repository: Path, library_dir: Path) -> None:
+    """Every type has its row there, with every parameter and every word of it."""
+    table = library.Library(library_dir / "libglimmer.so").materials()
+    text = (repository / "engine" / "cli" / "SCENE_FORMAT.md").read_text()
+    section = text[text.index("**materials**") : text.index("**meshes**")]
+    rows = {kind: row for kind, row in re.findall(r"^\| `(\w+)` \| (.*) \|$", section, re.MULTILINE) if kind != "type"}
+    assert set(rows) == set(table)
+    common = section[section.rindex("|") :]
+    with_emission = {kind for kind, parameters in table.items() if "emission" in parameters}
+    listed = re.search(r"is allowed on ([\w,\s]+?)\.", common)
+    assert listed is not None
+    assert set(re.split(r",\s+|\s+and\s+", listed[1])) == with_emission
+    for kind, parameters in table.items():
+        keys = set(re.findall(r"`(\w+)`", rows[kind]))
+        words = {word for row in parameters.values() for word in row.words}
+        assert keys == (set(parameters) - {"emission"}) | words, kind
 
 
 def test_the_first_integrator_is_the_default(library_dir: Path) -> None:

@@ -3,19 +3,63 @@
 #include "text.h"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <optional>
+#include <span>
 
 namespace glimmer {
 namespace {
 
-constexpr std::string_view kTypeNames[] = {"lambert",      "mirror", "conductor", "glass",
-                                           "report_metal", "mix",    "light",     "null"};
-constexpr glimmer_material_type kTypes[] = {GLIMMER_LAMBERT,      GLIMMER_MIRROR, GLIMMER_CONDUCTOR, GLIMMER_GLASS,
-                                            GLIMMER_REPORT_METAL, GLIMMER_MIX,    GLIMMER_LIGHT,     GLIMMER_NULL};
+/// The parameters of each type, from the engine's table.
+class Schema {
+  public:
+    Schema() {
+        for (uint32_t i = 0; const auto *info = glimmer_material_info(i); ++i) {
+            types_.emplace_back(info->type);
+            mixable_.push_back(info->mixable != 0);
+            rows_.emplace_back();
+        }
+        for (uint32_t i = 0; const auto *info = glimmer_parameter_info(i); ++i)
+            rows_[size_t(std::find(types_.begin(), types_.end(), info->type) - types_.begin())].push_back(info);
+    }
 
-void copy(const Float3 &from, float (&to)[3]) {
-    std::copy(from.begin(), from.end(), to);
+    std::span<const std::string_view> types() const { return types_; }
+    std::span<const glimmer_parameter_info_t *const> parameters(size_t type) const { return rows_[type]; }
+    bool mixable(size_t type) const { return mixable_[type]; }
+    /// "light, glass or null"
+    std::string unmixable() const {
+        std::vector<std::string_view> names;
+        for (size_t i = 0; i < types_.size(); ++i)
+            if (!mixable_[i])
+                names.push_back(types_[i]);
+        std::string out;
+        for (size_t i = 0; i < names.size(); ++i)
+            out += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
+        return out;
+    }
+
+  private:
+    std::vector<std::string_view> types_;
+    std::vector<bool> mixable_;
+    std::vector<std::vector<const glimmer_parameter_info_t *>> rows_;
+};
+
+std::vector<std::string_view> words_of(const glimmer_parameter_info_t &info) {
+    std::vector<std::string_view> words;
+    std::string_view rest = info.words;
+    for (size_t end; (end = rest.find(' ')) != std::string_view::npos; rest.remove_prefix(end + 1))
+        words.push_back(rest.substr(0, end));
+    words.push_back(rest);
+    return words;
+}
+
+/// Throws what the engine says of a material that it refused, without the name, which the place in the file has.
+void check_material(glimmer_result result, const Value &value, const std::string &name) {
+    const std::string label = name.empty() ? "material: " : "material \"" + name + "\": ", what = glimmer_last_error();
+    if (result == GLIMMER_INVALID_ARGUMENT && what.size() > label.size())
+        value.fail(what.substr(label.size()));
+    check(result, value.where());
 }
 
 /// Adds materials depth first, so that the engine gets the parts of a mix before the mix.
@@ -36,7 +80,7 @@ class MaterialReader {
   private:
     struct Added {
         uint32_t index;
-        glimmer_material_type type;
+        size_t type;
     };
 
     Added add_named(const std::string &name) {
@@ -68,95 +112,60 @@ class MaterialReader {
         } else {
             added = add(part, inline_name);
         }
-        if (added.type == GLIMMER_LIGHT || added.type == GLIMMER_GLASS || added.type == GLIMMER_NULL)
-            part.fail("neither part of a mix may be light, glass or null");
+        if (!schema_.mixable(added.type))
+            part.fail("neither part of a mix may be " + schema_.unmixable());
         return added.index;
     }
 
     Added add(const Value &value, const std::string &name) {
         value.expect_table();
+        const size_t type = one_of(value.at("type"), "a material type", "material types", schema_.types());
+        std::vector<std::string_view> keys{"type"};
+        for (const auto *info : schema_.parameters(type))
+            keys.emplace_back(info->key);
+        value.expect_object(keys);
+        std::vector<glimmer_parameter> parameters;
+        for (const auto *info : schema_.parameters(type))
+            if (const auto given = value.find(info->key))
+                parameters.push_back(read(*given, *info, name));
         glimmer_material_desc desc;
         glimmer_material_init(&desc);
         desc.name = name.c_str();
-        desc.type = kTypes[one_of(value.at("type"), "a material type", "material types", kTypeNames)];
-        fill(value, name, desc);
-        if (const auto emission = value.find("emission"))
-            copy(emission->color(kNonNegative), desc.emission);
+        desc.type = schema_.types()[type].data();
+        desc.parameter_count = parameters.size();
+        desc.parameters = parameters.data();
         uint32_t index = 0;
-        check(glimmer_scene_add_material(scene_, &desc, &index), value.where());
-        return {index, desc.type};
+        check_material(glimmer_scene_add_material(scene_, &desc, &index), value, name);
+        return {index, type};
     }
 
-    void fill(const Value &value, const std::string &name, glimmer_material_desc &desc) {
-        switch (desc.type) {
-        case GLIMMER_LAMBERT:
-            value.expect_object({"type", "albedo", "emission"});
-            copy(value.at("albedo").color(kUnit), desc.color);
+    glimmer_parameter read(const Value &value, const glimmer_parameter_info_t &info, const std::string &name) {
+        const Range range{info.low, info.high, info.above_low != 0};
+        glimmer_parameter parameter{};
+        parameter.key = info.key;
+        switch (info.kind) {
+        case GLIMMER_NUMBER:
+            parameter.value[0] = value.single(range);
             break;
-        case GLIMMER_MIRROR:
-            value.expect_object({"type", "reflectance", "emission"});
-            copy(value.at("reflectance").color(kUnit), desc.color);
-            break;
-        case GLIMMER_CONDUCTOR:
-            value.expect_object({"type", "alpha", "eta", "k", "f0", "f90", "masking", "emission"});
-            fill_conductor(value, desc);
-            break;
-        case GLIMMER_GLASS:
-            value.expect_object({"type", "ior", "fresnel"});
-            fill_glass(value, desc);
-            break;
-        case GLIMMER_REPORT_METAL:
-            value.expect_object({"type", "albedo", "f0", "alpha", "emission"});
-            copy(value.at("albedo").color(kUnit), desc.color);
-            copy(value.at("f0").color(kUnit), desc.f0);
-            desc.alpha = value.at("alpha").single(kUnit);
-            break;
-        case GLIMMER_MIX:
-            value.expect_object({"type", "weight", "a", "b", "emission"});
-            desc.weight = value.at("weight").single(kUnit);
-            desc.a = add_part(value.at("a"), name + ".a");
-            desc.b = add_part(value.at("b"), name + ".b");
-            break;
-        case GLIMMER_LIGHT:
-            value.expect_object({"type", "radiance"});
-            copy(value.at("radiance").color(kNonNegative), desc.color);
-            break;
-        case GLIMMER_NULL:
-            value.expect_object({"type"});
+        case GLIMMER_COLOR: {
+            const Float3 color = value.color(range);
+            std::copy(color.begin(), color.end(), parameter.value);
             break;
         }
-    }
-
-    static void fill_conductor(const Value &value, glimmer_material_desc &desc) {
-        constexpr std::string_view names[] = {"smith", "smith_separable", "schlick_ggx"};
-        constexpr glimmer_masking maskings[] = {GLIMMER_SMITH, GLIMMER_SMITH_SEPARABLE, GLIMMER_SCHLICK_GGX};
-        desc.alpha = value.at("alpha").single(kUnit);
-        const bool has_eta = value.has("eta") || value.has("k");
-        if (has_eta == value.has("f0"))
-            value.fail("needs either eta and k, or f0");
-        desc.use_f0 = !has_eta;
-        if (has_eta) {
-            copy(value.at("eta").color(kPositive), desc.eta);
-            copy(value.at("k").color(kNonNegative), desc.k);
-        } else {
-            copy(value.at("f0").color(kUnit), desc.f0);
+        case GLIMMER_WORD: {
+            const std::vector<std::string_view> words = words_of(info);
+            const std::string noun = info.noun;
+            parameter.word = words_.emplace_back(words[one_of(value, "a " + noun, noun + "s", words)]).c_str();
+            break;
         }
-        if (const auto f90 = value.find("f90")) {
-            if (has_eta)
-                value.fail("f90 goes with f0, not with eta and k");
-            copy(f90->color(kUnit), desc.f90);
+        case GLIMMER_MATERIAL:
+            parameter.material = add_part(value, name + "." + info.key);
         }
-        if (const auto masking = value.find("masking"))
-            desc.masking = maskings[one_of(*masking, "a masking function", "masking functions", names)];
+        return parameter;
     }
 
-    static void fill_glass(const Value &value, glimmer_material_desc &desc) {
-        constexpr std::string_view names[] = {"exact", "schlick"};
-        desc.ior = value.at("ior").single(kPositive);
-        if (const auto fresnel = value.find("fresnel"))
-            desc.schlick_fresnel = one_of(*fresnel, "a Fresnel function", "Fresnel functions", names) == 1;
-    }
-
+    Schema schema_;
+    std::deque<std::string> words_; ///< what parameters point to
     const Value &table_;
     glimmer_scene *scene_;
     Materials result_;

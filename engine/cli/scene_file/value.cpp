@@ -65,7 +65,7 @@ void Value::expect_table() const {
         refuse("an object {...}");
 }
 
-void Value::expect_object(std::initializer_list<std::string_view> allowed) const {
+void Value::expect_object(std::span<const std::string_view> allowed) const {
     expect_table();
     for (const auto &[key, value] : json_->items()) {
         if (std::find(allowed.begin(), allowed.end(), key) != allowed.end())

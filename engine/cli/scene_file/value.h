@@ -57,7 +57,10 @@ class Value {
     std::optional<Value> find(std::string_view key) const;
     bool has(std::string_view key) const { return find(key).has_value(); }
     /// An object with no other keys than these.
-    void expect_object(std::initializer_list<std::string_view> allowed) const;
+    void expect_object(std::span<const std::string_view> allowed) const;
+    void expect_object(std::initializer_list<std::string_view> allowed) const {
+        expect_object(std::span(allowed.begin(), allowed.size()));
+    }
     /// An array; calls back with each of its elements.
     template <class F>
     void for_each(F &&function) const {

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 namespace glimmer {
 
@@ -21,19 +23,28 @@ void add_material(Input &in, glimmer_scene *scene) {
     glimmer_material_desc desc;
     glimmer_material_init(&desc);
     desc.name = in.name();
-    desc.type = in.choice<glimmer_material_type>(GLIMMER_NULL);
-    for (float *values : {desc.color, desc.eta, desc.k, desc.f0, desc.emission})
+    std::array<glimmer_parameter, 12> parameters{};
+    uint32_t types = 0;
+    while (glimmer_material_info(types))
+        ++types;
+    // All that one type has, each now and then left out, or one of another type beside them.
+    const uint32_t type = in.ConsumeIntegralInRange<uint32_t>(0, types + 1);
+    desc.type = type < types ? glimmer_material_info(type)->type : type == types ? "nothing" : nullptr;
+    desc.parameters = parameters.data();
+    for (uint32_t i = 0; const auto *info = glimmer_parameter_info(i); ++i) {
+        const bool own = desc.type && std::string_view(info->type) == desc.type;
+        if (desc.parameter_count == parameters.size() || own == (in.ConsumeIntegralInRange<int>(0, 15) == 0))
+            continue;
+        glimmer_parameter &p = parameters[desc.parameter_count++];
+        p.key = info->key;
+        for (float &value : p.value)
+            value = in.ConsumeFloatingPointInRange<float>(-0.1f, 1.1f);
         if (in.ConsumeIntegralInRange<int>(0, 3) == 0)
-            in.fill(values, 3);
-    desc.alpha = in.ConsumeFloatingPointInRange<float>(-0.1f, 1.1f);
-    desc.use_f0 = in.ConsumeBool();
-    desc.masking = in.choice<glimmer_masking>(GLIMMER_SCHLICK_GGX);
-    if (in.ConsumeBool())
-        desc.ior = in.single();
-    desc.schlick_fresnel = in.ConsumeBool();
-    desc.weight = in.ConsumeFloatingPointInRange<float>(-0.1f, 1.1f);
-    desc.a = in.index();
-    desc.b = in.index();
+            in.fill(p.value, 3);
+        static constexpr const char *kWords[] = {"smith", "schlick_ggx", "exact", "schlick", "none", nullptr};
+        p.word = kWords[in.ConsumeIntegralInRange<size_t>(0, std::size(kWords) - 1)];
+        p.material = in.index();
+    }
     in.spoil_size(desc);
     uint32_t material = 0;
     expect(glimmer_scene_add_material(scene, &desc, &material));

@@ -82,6 +82,14 @@ Handle &checked(Handle *handle, const char *what) {
     return *handle;
 }
 
+/// The description of a scene that can still change.
+inline SceneDescription &open_scene(glimmer_scene *scene) {
+    glimmer_scene &s = checked(scene, "scene");
+    if (s.scene)
+        fail_state("the scene is committed and cannot change; make a new one");
+    return s.description;
+}
+
 template <class Handle>
 void destroy(Handle *handle) noexcept {
     if (handle && handle->magic == Handle::kMagic) {

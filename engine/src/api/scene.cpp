@@ -8,19 +8,6 @@ namespace {
 
 constexpr double kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-SceneDescription &open_scene(glimmer_scene *scene) {
-    glimmer_scene &s = checked(scene, "scene");
-    if (s.scene)
-        fail_state("the scene is committed and cannot change; make a new one");
-    return s.description;
-}
-
-template <class T, size_t N>
-void check_each(const T (&values)[N], double low, double high, const std::string &what) {
-    for (T v : values)
-        check_range(double(v), low, high, what);
-}
-
 template <class T, size_t N>
 void check_each_least(const T (&values)[N], double low, const std::string &what) {
     for (T v : values)
@@ -42,61 +29,6 @@ void check_rigid(const double (&m)[16], const std::string &what) {
         for (int j = 0; j <= i; ++j)
             if (std::abs(dot(l.column(i), l.column(j)) - (i == j)) > 1e-4)
                 fail_argument(what + " must be rigid (rotation and translation, no scale or shear)");
-}
-
-void check_material(const SceneDescription &scene, const glimmer_material_desc &d, const std::string &what) {
-    if (uint32_t(d.type) > GLIMMER_NULL)
-        fail_argument(what + ": type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 7");
-    check_each_least(d.emission, 0, what + ": emission");
-    const bool shines = d.emission[0] > 0 || d.emission[1] > 0 || d.emission[2] > 0;
-    if (shines && (d.type == GLIMMER_GLASS || d.type == GLIMMER_LIGHT || d.type == GLIMMER_NULL))
-        fail_argument(what + ": emission is not allowed on light, glass and null");
-    switch (d.type) {
-    case GLIMMER_LAMBERT:
-        check_each(d.color, 0, 1, what + ": albedo");
-        break;
-    case GLIMMER_MIRROR:
-        check_each(d.color, 0, 1, what + ": reflectance");
-        break;
-    case GLIMMER_CONDUCTOR:
-        check_range(double(d.alpha), 0, 1, what + ": alpha");
-        if (uint32_t(d.masking) > GLIMMER_SCHLICK_GGX)
-            fail_argument(what + ": masking " + std::to_string(int(d.masking)) + " is not known; allowed: 0 to 2");
-        if (d.use_f0) {
-            check_each(d.f0, 0, 1, what + ": f0");
-            check_each(d.f90, 0, 1, what + ": f90");
-        } else {
-            for (float eta : d.eta)
-                if (!(eta > 0) || !std::isfinite(eta))
-                    fail_argument(what + ": eta is " + text(double(eta)) + "; allowed: finite numbers above 0");
-            check_each_least(d.k, 0, what + ": k");
-        }
-        break;
-    case GLIMMER_GLASS:
-        if (!(d.ior > 0) || !std::isfinite(d.ior))
-            fail_argument(what + ": ior is " + text(double(d.ior)) + "; allowed: finite numbers above 0");
-        break;
-    case GLIMMER_REPORT_METAL:
-        check_each(d.color, 0, 1, what + ": albedo");
-        check_each(d.f0, 0, 1, what + ": f0");
-        check_range(double(d.alpha), 0, 1, what + ": alpha");
-        break;
-    case GLIMMER_MIX:
-        check_range(double(d.weight), 0, 1, what + ": weight");
-        for (uint32_t part : {d.a, d.b}) {
-            if (part >= scene.materials.size())
-                fail_argument(what + ": material " + std::to_string(part) + " was not added before the mix");
-            const glimmer_material_type type = scene.materials[part].type;
-            if (type == GLIMMER_LIGHT || type == GLIMMER_GLASS || type == GLIMMER_NULL)
-                fail_argument(what + ": light, glass and null cannot be mixed");
-        }
-        break;
-    case GLIMMER_LIGHT:
-        check_each_least(d.color, 0, what + ": radiance");
-        break;
-    case GLIMMER_NULL:
-        break;
-    }
 }
 
 void check_light(const glimmer_light_desc &d, const std::string &what) {
@@ -160,38 +92,6 @@ glimmer_result glimmer_scene_create(glimmer_scene **scene) {
 
 void glimmer_scene_destroy(glimmer_scene *scene) {
     destroy(scene);
-}
-
-void glimmer_material_init(glimmer_material_desc *desc) {
-    if (!desc)
-        return;
-    *desc = {};
-    desc->struct_size = sizeof *desc;
-    for (int c = 0; c < 3; ++c) {
-        desc->color[c] = 0.5f;
-        desc->eta[c] = 1;
-        desc->f0[c] = 0.5f;
-        desc->f90[c] = 1;
-    }
-    desc->ior = 1.5f;
-    desc->weight = 0.5f;
-}
-
-glimmer_result glimmer_scene_add_material(glimmer_scene *scene, const glimmer_material_desc *desc, uint32_t *material) {
-    return guarded([&] {
-        SceneDescription &s = open_scene(scene);
-        glimmer_material_desc defaults;
-        glimmer_material_init(&defaults);
-        MaterialDescription out;
-        static_cast<glimmer_material_desc &>(out) = checked_desc(desc, defaults, "material");
-        const std::string what = label_of("material", out.name);
-        check_material(s, out, what);
-        if (!material)
-            fail_argument(what + ": the output is null");
-        out.label = out.name ? out.name : "";
-        s.materials.push_back(std::move(out));
-        *material = uint32_t(s.materials.size() - 1);
-    });
 }
 
 void glimmer_object_init(glimmer_object_desc *desc) {

@@ -3,40 +3,39 @@
 #include "base/error.h"
 #include "scene/builder.h"
 
+#include <stdexcept>
+
 namespace glimmer {
 
 namespace {
 
-Rgb to_rgb(const float (&c)[3]) {
-    return {c[0], c[1], c[2]};
-}
-
-Masking to_masking(glimmer_masking masking) {
-    return masking == GLIMMER_SMITH             ? Masking::Smith
-           : masking == GLIMMER_SMITH_SEPARABLE ? Masking::SmithSeparable
-                                                : Masking::SchlickGgx;
-}
-
+/// A material that is a single lobe.
 Lobe to_lobe(const MaterialDescription &m) {
     switch (m.type) {
-    case GLIMMER_MIRROR:
-        return Mirror{to_rgb(m.color)};
-    case GLIMMER_CONDUCTOR:
-        return Conductor{m.alpha,      m.use_f0 != 0,         to_rgb(m.eta), to_rgb(m.k),
-                         to_rgb(m.f0), to_masking(m.masking), to_rgb(m.f90)};
-    case GLIMMER_REPORT_METAL:
-        return BaselineMetal{to_rgb(m.color), to_rgb(m.f0), m.alpha};
-    default:
-        return Lambert{to_rgb(m.color)};
+    case MaterialType::lambert:
+        return Lambert{m.albedo};
+    case MaterialType::mirror:
+        return Mirror{m.reflectance};
+    case MaterialType::conductor:
+        return Conductor{m.alpha, m.alternative == 2, m.eta, m.k, m.f0, m.masking, m.f90};
+    case MaterialType::report_metal:
+        return BaselineMetal{m.albedo, m.f0, m.alpha};
+    case MaterialType::glass:
+    case MaterialType::mix:
+    case MaterialType::light:
+    case MaterialType::null:
+    case MaterialType::count:
+        break;
     }
+    throw std::logic_error("material \"" + m.label + "\" is no lobe");
 }
 
 } // namespace
 
 void SceneBuilder::flatten(uint32_t index, float weight, std::vector<WeightedLobe> &lobes, Rgb &emission) const {
     const MaterialDescription &m = description_.materials[index];
-    emission += to_rgb(m.emission) * weight;
-    if (m.type == GLIMMER_MIX) {
+    emission += m.emission * weight;
+    if (m.type == MaterialType::mix) {
         flatten(m.a, weight * m.weight, lobes, emission);
         flatten(m.b, weight * (1 - m.weight), lobes, emission);
     } else if (weight > 0) {
@@ -51,16 +50,16 @@ void SceneBuilder::build_materials() {
         out.name = m.label;
         std::vector<WeightedLobe> lobes;
         switch (m.type) {
-        case GLIMMER_GLASS:
+        case MaterialType::glass:
             out.kind = MaterialKind::glass;
             out.ior = m.ior;
-            out.schlick = m.schlick_fresnel != 0;
+            out.schlick = m.fresnel == DielectricFresnel::schlick;
             break;
-        case GLIMMER_LIGHT:
+        case MaterialType::light:
             out.kind = MaterialKind::light;
-            out.emission = to_rgb(m.color);
+            out.emission = m.radiance;
             break;
-        case GLIMMER_NULL:
+        case MaterialType::null:
             out.kind = MaterialKind::null;
             break;
         default:

@@ -5,6 +5,7 @@
 #include "geometry/mesh.h"
 #include "glimmer.h"
 #include "math/affine.h"
+#include "shading/material_description.h"
 
 #include <array>
 #include <memory>
@@ -46,10 +47,7 @@ struct MediumDescription {
     double g = 0;
 };
 
-/// The descriptions of the C API are plain values once their strings and arrays have been copied out.
-struct MaterialDescription : glimmer_material_desc {
-    std::string label;
-};
+/// A plain value once its strings have been copied out.
 struct LightDescription : glimmer_light_desc {
     std::string label;
 };

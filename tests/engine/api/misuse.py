@@ -57,9 +57,34 @@ def new_mesh() -> c_void_p:
     return handle
 
 
-def add_material(scene: c_void_p, **changes: Any) -> tuple[int, int]:
+def parameters(values: dict[str, Any]) -> Any:
+    """The engine's array: a list is a colour, a text a word, an int a material."""
+    out = (structs.Parameter * len(values))()
+    for entry, (key, value) in zip(out, values.items(), strict=True):
+        entry.key = key.encode()
+        if isinstance(value, str):
+            entry.word = value.encode()
+        elif isinstance(value, int):
+            entry.material = value
+        else:
+            entry.value = tuple(value) if isinstance(value, tuple) else (value,) * 3
+    return out
+
+
+GREY = {"albedo": 0.5}
+
+
+def material_desc(kind: str | None = "lambert", values: dict[str, Any] | None = None, **changes: Any) -> Any:
+    given = parameters(GREY if values is None else values)
+    desc = engine().init(structs.MaterialDesc)
+    desc.type = None if kind is None else kind.encode()
+    desc.parameter_count, desc.parameters = len(given), given
+    return changed(desc, changes)
+
+
+def add_material(scene: c_void_p, *described: Any, **changes: Any) -> tuple[int, int]:
     """Result and number."""
-    desc = changed(engine().init(structs.MaterialDesc), changes)
+    desc = material_desc(*described, **changes)
     number = c_uint32(12345)
     return functions().glimmer_scene_add_material(scene, byref(desc), byref(number)), number.value
 
@@ -82,6 +107,3 @@ RENDER_CALLS: dict[str, Callable[[], tuple[Any, ...]]] = {
 def render_call(name: str, handle: Any) -> int:
     result: int = getattr(functions(), f"glimmer_render_{name}")(handle, *RENDER_CALLS[name]())
     return result
-
-
-LAMBERT, MIRROR, CONDUCTOR, GLASS, REPORT_METAL, MIX, LIGHT, NULL = range(8)

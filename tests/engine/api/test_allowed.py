@@ -8,7 +8,7 @@ from ctypes import byref, c_char_p, c_uint32, c_void_p
 import numpy as np
 
 from addon.native import structs
-from tests.engine.api.misuse import ARGUMENT, CONDUCTOR, NAN, OK, VERTICES, add_material, mesh_desc, refused
+from tests.engine.api.misuse import ARGUMENT, NAN, OK, VERTICES, add_material, material_desc, mesh_desc, refused
 from tests.engine.library import call, engine, functions, last_error
 
 
@@ -31,7 +31,7 @@ def test_an_older_caller_is_understood(scene: c_void_p) -> None:
 
 def test_a_message_is_one_line_whatever_the_name(scene: c_void_p) -> None:
     for name in (b"two\nlines", b"back\rto the start", b"\x1b[31mred", b"bell\x07", b"delete\x7f"):
-        message = refused(add_material(scene, name=name, alpha=2, type=CONDUCTOR)[0], ARGUMENT, "alpha")
+        message = refused(add_material(scene, "lambert", {"albedo": 2.0}, name=name)[0], ARGUMENT, "albedo")
         assert message.isprintable(), message
 
 
@@ -54,7 +54,7 @@ def test_what_is_handed_in_is_copied(scene: c_void_p) -> None:
     call("glimmer_mesh_create", byref(mesh_desc(vertices=vertices.ctypes.data)), byref(mesh))
     vertices[:] = NAN
     name = ctypes.create_string_buffer(b"first name")
-    desc = engine().init(structs.MaterialDesc)
+    desc = material_desc()
     desc.name = ctypes.cast(name, c_char_p)
     assert library.glimmer_scene_add_material(scene, byref(desc), byref(c_uint32())) == OK
     name.value = b"overwrite"

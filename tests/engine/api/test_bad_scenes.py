@@ -11,22 +11,17 @@ import pytest
 from addon.native import structs
 from tests.engine.api.misuse import (
     ARGUMENT,
-    CONDUCTOR,
-    GLASS,
+    GREY,
     IDENTITY,
     INFINITY,
-    LAMBERT,
-    LIGHT,
-    MIRROR,
-    MIX,
     NAN,
-    NULL,
     OK,
-    REPORT_METAL,
     add_material,
     changed,
+    material_desc,
     mesh_desc,
     new_mesh,
+    parameters,
     refused,
 )
 from tests.engine.library import engine, functions
@@ -67,46 +62,72 @@ def test_bad_image(width: int, height: int, channels: int, value: float) -> None
     assert not out
 
 
+METAL = {"alpha": 0.1, "eta": (2.0, 2.0, 2.0), "k": (3.0, 3.0, 3.0)}
+GOLD = {"alpha": 0.1, "f0": (0.9, 0.7, 0.4)}
+
+
 @pytest.mark.parametrize(
-    ("changes", "word"),
+    ("kind", "values", "words"),
     [
-        ({"type": 8}, "type"),
-        ({"type": -1}, "type"),
-        ({"type": LAMBERT, "color": (0.5, 1.5, 0.5)}, "albedo"),
-        ({"type": LAMBERT, "color": (0.5, -0.1, 0.5)}, "albedo"),
-        ({"type": LAMBERT, "color": (0.5, NAN, 0.5)}, "albedo"),
-        ({"type": MIRROR, "color": (2, 0, 0)}, "reflectance"),
-        ({"type": CONDUCTOR, "alpha": 1.5}, "alpha"),
-        ({"type": CONDUCTOR, "alpha": NAN}, "alpha"),
-        ({"type": CONDUCTOR, "eta": (0, 1, 1)}, "eta"),
-        ({"type": CONDUCTOR, "k": (1, -1, 1)}, "k"),
-        ({"type": CONDUCTOR, "use_f0": 1, "f0": (0, 0, 1.1)}, "f0"),
-        ({"type": CONDUCTOR, "use_f0": 1, "f90": (0, -0.1, 1)}, "f90"),
-        ({"type": CONDUCTOR, "masking": 3}, "masking"),
-        ({"type": GLASS, "ior": 0}, "ior"),
-        ({"type": GLASS, "ior": -1.5}, "ior"),
-        ({"type": GLASS, "ior": NAN}, "ior"),
-        ({"type": GLASS, "emission": (1, 0, 0)}, "emission"),
-        ({"type": LIGHT, "emission": (1, 0, 0)}, "emission"),
-        ({"type": NULL, "emission": (1, 0, 0)}, "emission"),
-        ({"type": LAMBERT, "emission": (-1, 0, 0)}, "emission"),
-        ({"type": LAMBERT, "emission": (INFINITY, 0, 0)}, "emission"),
-        ({"type": LIGHT, "color": (-1, 0, 0)}, "radiance"),
-        ({"type": LIGHT, "color": (INFINITY, 0, 0)}, "radiance"),
-        ({"type": REPORT_METAL, "alpha": -1}, "alpha"),
-        ({"type": MIX, "a": 0, "b": 99}, "99"),
-        ({"type": MIX, "a": 0, "b": 1, "weight": 1.5}, "weight"),
-        ({"type": MIX, "a": 0, "b": 2}, "mix"),
+        ("wax", GREY, ('type "wax" is not known; allowed: lambert, mirror, ',)),
+        ("", GREY, ("type",)),
+        (None, GREY, ("type is null",)),
+        ("lambert", {"albedo": (0.5, 1.5, 0.5)}, ("albedo is 1.5; allowed: 0 to 1",)),
+        ("lambert", {"albedo": (0.5, -0.1, 0.5)}, ("albedo",)),
+        ("lambert", {"albedo": (0.5, NAN, 0.5)}, ("albedo",)),
+        ("lambert", {}, ('the key "albedo" is missing',)),
+        ("lambert", {**GREY, "alpha": 0.5}, ('lambert has no parameter "alpha"; allowed: albedo, ',)),
+        ("mirror", {"reflectance": (2.0, 0.0, 0.0)}, ("reflectance",)),
+        ("conductor", {**METAL, "alpha": 1.5}, ("alpha",)),
+        ("conductor", {**METAL, "alpha": NAN}, ("alpha",)),
+        ("conductor", {**METAL, "eta": (0.0, 1.0, 1.0)}, ("eta is 0; allowed: finite numbers above 0",)),
+        ("conductor", {**METAL, "k": (1.0, -1.0, 1.0)}, ("k",)),
+        ("conductor", {**GOLD, "f0": (0.0, 0.0, 1.1)}, ("f0",)),
+        ("conductor", {**GOLD, "f90": (0.0, -0.1, 1.0)}, ("f90",)),
+        ("conductor", {**GOLD, "masking": "ggx"}, ('masking is "ggx"; allowed: smith, smith_separable, ',)),
+        ("conductor", {**GOLD, "masking": ""}, ("masking",)),
+        ("conductor", {**GOLD, "masking": 1}, ("masking is null",)),
+        ("conductor", {"alpha": 0.1}, ("needs either eta and k, or f0",)),
+        ("conductor", {**METAL, **GOLD}, ("needs either eta and k, or f0",)),
+        ("conductor", {**METAL, "f90": 0.5}, ("f90 goes with f0, not with eta and k",)),
+        ("conductor", {"alpha": 0.1, "eta": 2.0}, ('the key "k" is missing',)),
+        ("glass", {"ior": 0.0}, ("ior",)),
+        ("glass", {"ior": -1.5}, ("ior",)),
+        ("glass", {"ior": NAN}, ("ior",)),
+        ("light", {"radiance": 1.0, "emission": 1.0}, ("emission",)),
+        ("null", {"emission": 1.0}, ('null has no parameter "emission"; allowed: none',)),
+        ("lambert", {**GREY, "emission": (-1.0, 0.0, 0.0)}, ("emission",)),
+        ("lambert", {**GREY, "emission": (INFINITY, 0.0, 0.0)}, ("emission",)),
+        ("light", {"radiance": (-1.0, 0.0, 0.0)}, ("radiance",)),
+        ("light", {"radiance": (INFINITY, 0.0, 0.0)}, ("radiance",)),
+        ("report_metal", {**GREY, "f0": 0.5, "alpha": -1.0}, ("alpha",)),
+        ("mix", {"weight": 0.5, "a": 0, "b": 99}, ("b: material 99 was not added before",)),
+        ("mix", {"weight": 1.5, "a": 0, "b": 1}, ("weight",)),
+        ("mix", {"weight": 0.5, "a": 0, "b": 2}, ("b: glass cannot be a part of another material",)),
+        ("mix", {"weight": 0.5, "a": 0}, ('the key "b" is missing',)),
     ],
 )
-def test_bad_material(scene: c_void_p, changes: dict[str, Any], word: str) -> None:
+def test_bad_material(scene: c_void_p, kind: str | None, values: dict[str, Any], words: tuple[str, ...]) -> None:
     """Named in the message, and not added: the next good one takes its number."""
-    for good in (LAMBERT, MIRROR, GLASS):
-        assert add_material(scene, type=good)[0] == OK
-    result, number = add_material(scene, name=b"culprit", **changes)
-    refused(result, ARGUMENT, word, "culprit")
+    for good in (("lambert", GREY), ("mirror", {"reflectance": 0.9}), ("glass", {"ior": 1.5})):
+        assert add_material(scene, *good)[0] == OK
+    result, number = add_material(scene, kind, values, name=b"culprit")
+    refused(result, ARGUMENT, *words, "culprit")
     assert number == 12345, "an output of a call that failed was written"
     assert add_material(scene) == (OK, 3)
+
+
+def test_bad_arrays_of_parameters(scene: c_void_p) -> None:
+    refused(add_material(scene, "lambert", GREY, parameters=None)[0], ARGUMENT, "null parameters")
+    refused(add_material(scene, "lambert", GREY, parameter_count=65)[0], ARGUMENT, "65 parameters; allowed: up to 64")
+    twice = parameters({"albedo": 0.5, "emission": 0.5})
+    twice[1].key = b"albedo"
+    desc = material_desc()
+    desc.parameter_count, desc.parameters = 2, twice
+    add = functions().glimmer_scene_add_material
+    refused(add(scene, byref(desc), byref(c_uint32())), ARGUMENT, "albedo is given twice")
+    twice[1].key = None
+    refused(add(scene, byref(desc), byref(c_uint32())), ARGUMENT, "the key of a parameter is null")
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from tests.engine.api.misuse import (
     STATE,
     add_material,
     committed,
+    material_desc,
     mesh_desc,
     new_mesh,
     refused,
@@ -43,9 +44,7 @@ def scene_calls() -> dict[str, Callable[[Any], int]]:
     library, init = functions(), engine().init
     three, color = (c_double * 3)(0, 0, 0), (c_float * 3)(1, 1, 1)
     return {
-        "add_material": lambda s: library.glimmer_scene_add_material(
-            s, byref(init(structs.MaterialDesc)), byref(c_uint32())
-        ),
+        "add_material": lambda s: library.glimmer_scene_add_material(s, byref(material_desc()), byref(c_uint32())),
         "add_object": lambda s: library.glimmer_scene_add_object(s, byref(init(structs.ObjectDesc))),
         "add_spheres": lambda s: library.glimmer_scene_add_spheres(s, byref(init(structs.SpheresDesc))),
         "add_light": lambda s: library.glimmer_scene_add_light(s, byref(init(structs.LightDesc))),
@@ -102,9 +101,7 @@ def test_null_descriptions_and_outputs(scene: c_void_p) -> None:
     for name in ("add_object", "add_spheres", "add_light", "set_camera", "set_film"):
         refused(getattr(library, f"glimmer_scene_{name}")(scene, None), ARGUMENT, "null")
     refused(library.glimmer_scene_add_material(scene, None, byref(c_uint32())), ARGUMENT, "null")
-    refused(
-        library.glimmer_scene_add_material(scene, byref(engine().init(structs.MaterialDesc)), None), ARGUMENT, "null"
-    )
+    refused(library.glimmer_scene_add_material(scene, byref(material_desc()), None), ARGUMENT, "the output is null")
     refused(library.glimmer_scene_set_environment(scene, None, None, None), ARGUMENT, "null")
     refused(library.glimmer_scene_set_medium(scene, None, (c_double * 3)(), 0), ARGUMENT, "null")
     refused(library.glimmer_scene_set_medium(scene, (c_double * 3)(), None, 0), ARGUMENT, "null")

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A material as a caller describes it: its type and the values of its parameters, checked but not yet built.
+#pragma once
+
+#include "bsdf/ggx.h"
+#include "math/vec.h"
+
+#include <cstdint>
+#include <string>
+
+namespace glimmer {
+
+enum class MaterialType : uint8_t { lambert, mirror, conductor, glass, report_metal, mix, light, null, count };
+
+enum class DielectricFresnel : uint8_t { exact, schlick };
+
+/// The values of the parameters of all types under the names that they have in scene files. material_schema.h says
+/// which of them a type has; the others keep their defaults and mean nothing.
+struct MaterialDescription {
+    std::string label;
+    MaterialType type = MaterialType::lambert;
+    uint32_t alternative = 0; ///< of the type's alternative parameters: which were given (see MaterialRow)
+
+    Rgb albedo, reflectance, radiance, emission;
+    float alpha = 0; ///< GGX width
+    Rgb eta, k, f0, f90{1};
+    Masking masking = Masking::Smith;
+    float ior = 1;
+    DielectricFresnel fresnel = DielectricFresnel::exact;
+    float weight = 0;
+    uint32_t a = 0, b = 0; ///< materials before this one
+};
+
+} // namespace glimmer

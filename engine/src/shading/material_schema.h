@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one table of what materials there are and which parameters they have. The C API checks by it and exports it; the
+// command reads scene files by it, the add-on fills descriptions and writes scene files by it, and the tables of
+// SCENE_FORMAT.md are tested against it. A new kind of material is a row or two here, a closure in bsdf/, its line in
+// scene/build_materials.cpp, and the dataclass and the node that use it in the add-on.
+#pragma once
+
+#include "glimmer.h"
+#include "shading/material_description.h"
+
+#include <array>
+#include <limits>
+#include <span>
+#include <variant>
+
+namespace glimmer {
+
+/// By MaterialType.
+inline constexpr std::array kMaterials = std::to_array<glimmer_material_info_t>({
+    {"lambert", 1, "a diffuse surface"},
+    {"mirror", 1, "a perfect mirror"},
+    {"conductor", 1, "a rough metal: GGX, of a complex index of refraction or of two reflectances"},
+    {"glass", 0, "the boundary of a smooth dielectric: a closed surface; nested glass by containment"},
+    {"report_metal", 1, "the student report's sum of a diffuse and a metallic lobe as printed: not energy conserving"},
+    {"mix", 1, "a share of one material, the rest of another"},
+    {"light", 0, "an opaque black surface of constant outgoing radiance on both sides"},
+    {"null", 0, "not there"},
+});
+static_assert(kMaterials.size() == size_t(MaterialType::count));
+
+/// A parameter and where its value stands. A word is kept as its number in the enumeration, which lists the same words.
+struct ParameterRow {
+    MaterialType type;
+    glimmer_parameter_info_t info;
+    std::variant<float MaterialDescription::*, Rgb MaterialDescription::*, uint32_t MaterialDescription::*,
+                 Masking MaterialDescription::*, DielectricFresnel MaterialDescription::*>
+        member;
+};
+
+namespace schema {
+
+/// What the numbers of a parameter may be.
+struct Range {
+    double low, high;
+    bool above_low = false;
+};
+inline constexpr Range kUnit{0, 1};
+inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity()};
+inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
+
+using D = MaterialDescription;
+using T = MaterialType;
+
+constexpr ParameterRow row(T type, const char *key, glimmer_parameter_kind kind, const Range &range, bool required,
+                           const char *help, decltype(ParameterRow::member) member) {
+    glimmer_parameter_info_t info{};
+    info.type = kMaterials[size_t(type)].type;
+    info.key = key;
+    info.kind = kind;
+    info.low = range.low;
+    info.high = range.high;
+    info.above_low = range.above_low;
+    info.required = required;
+    info.words = info.noun = "";
+    info.help = help;
+    return {type, info, member};
+}
+
+constexpr ParameterRow number(T type, const char *key, float D::*member, const Range &range, const char *help) {
+    return row(type, key, GLIMMER_NUMBER, range, true, help, member);
+}
+constexpr ParameterRow color(T type, const char *key, Rgb D::*member, const Range &range, const char *help) {
+    return row(type, key, GLIMMER_COLOR, range, true, help, member);
+}
+constexpr ParameterRow material(T type, const char *key, uint32_t D::*member, const char *help) {
+    return row(type, key, GLIMMER_MATERIAL, {}, true, help, member);
+}
+template <class Words>
+constexpr ParameterRow word(T type, const char *key, Words D::*member, const char *words, const char *noun,
+                            const char *help) {
+    ParameterRow r = row(type, key, GLIMMER_WORD, {}, false, help, member);
+    r.info.words = words;
+    r.info.noun = noun;
+    return r;
+}
+/// The same, but need not be given; then it is `value`.
+constexpr ParameterRow optional(ParameterRow r, float value) {
+    r.info.required = false;
+    r.info.value = value;
+    return r;
+}
+/// The same, as one of the parameters of the type's n-th alternative.
+constexpr ParameterRow alternative(uint32_t n, ParameterRow r) {
+    r.info.alternative = n;
+    return r;
+}
+constexpr ParameterRow emission(T type) {
+    return optional(color(type, "emission", &D::emission, kNonNegative,
+                          "radiance on both sides, added to what the surface scatters"),
+                    0);
+}
+
+} // namespace schema
+
+/// By type, in the order in which messages list them.
+inline constexpr std::array kParameters = [] {
+    using namespace schema;
+    return std::to_array<ParameterRow>({
+        color(T::lambert, "albedo", &D::albedo, kUnit, ""),
+        emission(T::lambert),
+
+        color(T::mirror, "reflectance", &D::reflectance, kUnit, ""),
+        emission(T::mirror),
+
+        number(T::conductor, "alpha", &D::alpha, kUnit, "GGX width, Blender's roughness squared; below 1e-4 a mirror"),
+        alternative(1, color(T::conductor, "eta", &D::eta, kPositive, "index of refraction: exact Fresnel equations")),
+        alternative(1, color(T::conductor, "k", &D::k, kNonNegative, "extinction coefficient")),
+        alternative(2, color(T::conductor, "f0", &D::f0, kUnit, "reflectance at normal incidence: Schlick's")),
+        alternative(2, optional(color(T::conductor, "f90", &D::f90, kUnit, "reflectance at grazing"), 1)),
+        word(T::conductor, "masking", &D::masking, "smith smith_separable schlick_ggx", "masking function",
+             "height-correlated Smith; separable Smith; the student report's, k = alpha/2"),
+        emission(T::conductor),
+
+        number(T::glass, "ior", &D::ior, kPositive, "index of refraction; radiance scales with its square"),
+        word(T::glass, "fresnel", &D::fresnel, "exact schlick", "Fresnel function", ""),
+
+        color(T::report_metal, "albedo", &D::albedo, kUnit, ""),
+        color(T::report_metal, "f0", &D::f0, kUnit, "reflectance at normal incidence"),
+        number(T::report_metal, "alpha", &D::alpha, kUnit, "GGX width"),
+        emission(T::report_metal),
+
+        number(T::mix, "weight", &D::weight, kUnit, "of a; the rest is b"),
+        material(T::mix, "a", &D::a, ""),
+        material(T::mix, "b", &D::b, ""),
+        emission(T::mix),
+
+        color(T::light, "radiance", &D::radiance, kNonNegative, ""),
+    });
+}();
+
+inline std::span<const ParameterRow> parameters_of(MaterialType type) {
+    size_t begin = 0, end = kParameters.size();
+    while (begin < end && kParameters[begin].type != type)
+        ++begin;
+    while (end > begin && kParameters[end - 1].type != type)
+        --end;
+    return std::span(kParameters).subspan(begin, end - begin);
+}
+
+} // namespace glimmer
