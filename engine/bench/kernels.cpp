@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The small functions of the path loop, one call at a time over inputs that fit in the cache.
-#include "integrator/simd/kernels.h"
-
 #include "bsdf/conductor.h"
 #include "inputs.h"
+#include "integrator/vpl/connect_simd.h"
 #include "light/equiangular_table.h"
 #include "math/simd/float8.h"
 
@@ -43,29 +42,29 @@ void ggx_sample(benchmark::State &state) {
 }
 BENCHMARK(ggx_sample);
 
-void line_table(benchmark::State &state) {
+void equiangular_table(benchmark::State &state) {
     const HomogeneousMedium medium(Rgb(0.0015f), Rgb(0.0135f), 0);
     const auto direction = upper_directions(1), place = upper_directions(2);
     run(state, [&](size_t i) {
-        const EquiangularTable line(medium, {0, 0, 0}, direction[i], 100, place[i] * 30, 2);
-        return line.sample(uniform(3, i));
+        const EquiangularTable table(medium, {0, 0, 0}, direction[i], 100, place[i] * 30, 2);
+        return table.sample(uniform(3, i));
     });
 }
-BENCHMARK(line_table);
+BENCHMARK(equiangular_table);
 
-/// A gather's connections to the 128 vertices of a sub-pool; argument: whether in AVX-512.
+/// Connections of a gather point to the 128 vertices of a subset; argument: whether in AVX-512.
 void connections(benchmark::State &state) {
-    if (state.range(0) && !simd_kernels_avx512())
+    if (state.range(0) && !has_avx512())
         return state.SkipWithError("this processor has no AVX-512");
-    const SimdKernels &of_set = state.range(0) ? kSimdKernelsAvx512 : kSimdKernelsAvx2;
-    constexpr size_t count = 128, pools = 8;
+    const ConnectKernels &of_set = state.range(0) ? kConnectAvx512 : kConnectAvx2;
+    constexpr size_t count = 128, subsets = 8;
     std::array<std::vector<float>, 6> columns;
     for (size_t c = 0; c < columns.size(); ++c)
-        for (size_t i = 0; i < count * pools; ++i)
+        for (size_t i = 0; i < count * subsets; ++i)
             columns[c].push_back(uniform(c, i));
     std::array<float, count> parts;
     run(state, [&](size_t i) {
-        const size_t first = i % pools * count;
+        const size_t first = i % subsets * count;
         const auto from = [&](size_t c) { return columns[c].data() + first; };
         return of_set.connect({0.015f, 0.015f, 0.015f, 0, true},
                               {from(0), from(1), from(2), from(3), from(4), from(5), nullptr, nullptr, nullptr}, count,

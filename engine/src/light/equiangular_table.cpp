@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "light/equiangular_table.h"
 
-#include "integrator/simd/kernels.h"
-
 #include <cmath>
 
 namespace glimmer {
@@ -45,7 +43,7 @@ EquiangularTable::EquiangularTable(const Medium &medium, const Vec3f &origin, co
     x_step_ = (to_x(double(t_cut_)) - x_first_) / (kNodes - 1);
 
     const TableShape shape{t_foot_, h_, h2, r, distance, cut, x_first_, x_step_};
-    const float last = simd_kernels().table_nodes(medium.simd_view(), shape, density_.data());
+    const float last = equiangular_nodes(medium.simd_view(), shape, density_.data());
     per_step_ = 1 / x_step_;
     std::array<float, kNodes> area;
     for (size_t i = 1; i < kNodes; ++i)

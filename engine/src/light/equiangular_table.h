@@ -3,7 +3,7 @@
 // its way.
 #pragma once
 
-#include "integrator/simd/kernels.h"
+#include "light/equiangular_nodes_simd.h"
 #include "math/vec.h"
 #include "medium/medium.h"
 

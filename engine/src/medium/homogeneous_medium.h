@@ -3,9 +3,9 @@
 #pragma once
 
 #include "geometry/ray.h"
-#include "integrator/simd/kernels.h"
 #include "math/simd/float8.h"
 #include "math/vec.h"
+#include "medium/simd_medium.h"
 #include "sampling/exponential.h"
 #include "sampling/sampler.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/vpl/block_vertices.h"
 
-#include "integrator/simd/kernels.h"
 #include "integrator/visibility.h"
+#include "integrator/vpl/connect_simd.h"
 #include "integrator/vpl/connection.h"
 #include "integrator/vpl/tuning.h"
 #include "medium/phase.h"
@@ -89,13 +89,14 @@ void BlockVertices::pick_medium(const MediumVertices &vertices, const std::vecto
         return;
     medium_.directed = vertices.directed;
     std::vector<float> targets(n), powers(n);
-    std::vector<SeenPoint> seen;
+    std::vector<GatherPoint> seen;
     seen.reserve(points.size());
     for (const Vec3f &q : points)
         seen.push_back({q.x, q.y, q.z, 0, 0, 0});
     // The vertices that do not fill a register keep a target of 0 and are drawn uniformly.
-    simd_kernels().weigh(scene_.medium->simd_view(), columns(vertices, 0), n - n % kSimdLanes, seen.data(), seen.size(),
-                         tuning::kTargetClampFactor * settings_.medium_clamp_distance, targets.data());
+    connect_kernels().pick_targets(scene_.medium->simd_view(), columns(vertices, 0), n - n % kSimdLanes, seen.data(),
+                                   seen.size(), tuning::kTargetClampFactor * settings_.medium_clamp_distance,
+                                   targets.data());
     for (size_t j = 0; j < n; ++j) {
         powers[j] = mean_component(vertices.power(j));
         targets[j] *= powers[j];
@@ -171,11 +172,11 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, T
                  medium_first = size_t(subset) * tuning::kMediumPicks;
     ConnectionSums medium_sums{};
     if (medium_count) {
-        const SeenPoint point{x.x, x.y, x.z, seen.x, seen.y, seen.z};
-        medium_sums = simd_kernels().connect(medium.simd_view(), columns(medium_, medium_first), medium_count, point,
-                                             medium_clamp_distance, medium_parts.data());
+        const GatherPoint point{x.x, x.y, x.z, seen.x, seen.y, seen.z};
+        medium_sums = connect_kernels().connect(medium.simd_view(), columns(medium_, medium_first), medium_count, point,
+                                                medium_clamp_distance, medium_parts.data());
         total = Rgb(medium_sums.r, medium_sums.g, medium_sums.b);
-        parts = medium_sums.part;
+        parts = medium_sums.mean;
     }
     const size_t surface_count = surface_.empty() ? 0 : tuning::kSurfacePicks;
     const ShadedVertex *surface = surface_count ? &surface_[size_t(subset) * tuning::kSurfacePicks] : nullptr;

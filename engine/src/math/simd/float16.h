@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sixteen floats at a time: one register where this file is compiled for AVX-512, else two of AVX2. The same operations
-// in the same order, so that both give the same bits. Without linkage: each of the two has its own.
+// Sixteen floats at a time: one register where this file is compiled for AVX-512, else two of AVX2, with the same
+// operations in the same order, so that both give the same bits. Everything here has internal linkage, so that each
+// instruction set has its own (instruction_set.h).
 #pragma once
 
-#include "integrator/simd/kernels.h"
 #include "math/simd/float8.h"
+#include "math/simd/instruction_set.h"
 
 #include <cstddef>
 
