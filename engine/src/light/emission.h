@@ -3,12 +3,10 @@
 #pragma once
 
 #include "light/interface.h"
+#include "math/rounding.h"
 #include "sampling/warp.h"
 
 namespace glimmer {
-
-/// Bound on the rounding error of a float32 position, in units of its largest coordinate.
-inline constexpr float kPositionError = 0x1p-20f;
 
 /// A cosine-distributed ray from a point of a surface of uniform radiance, started off it by the rounding error.
 inline Emission emit_from_surface(const Vec3f &position, const Vec3f &normal, float error, const Rgb &radiance,

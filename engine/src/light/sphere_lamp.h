@@ -52,7 +52,7 @@ inline Emission emit(const SphereLamp &light, bool, Vec2f u_position, Vec2f u_di
     const Vec3f normal = sample_uniform_sphere(u_position) * (in ? -1.0f : 1.0f);
     const double r = light.sphere.radius;
     const Vec3f position(light.sphere.center + Vec3d(normal) * (in ? -r : r));
-    Emission e = emit_from_surface(position, normal, kPositionError * max_abs(position), light.radiance,
+    Emission e = emit_from_surface(position, normal, kSampledPointRounding * max_abs(position), light.radiance,
                                    8 * kPiDouble * r * r, u_direction);
     if (in)
         e.ray.t_max = float(2 * r) * dot(e.ray.direction, normal);

@@ -32,8 +32,8 @@ inline Emission emit(const SphereLight &light, bool inwards, Vec2f u_position, V
     const Vec3f normal = sample_uniform_sphere(u_position);
     const double r = light.sphere.radius;
     const Vec3f position(light.sphere.center + Vec3d(normal) * r);
-    return emit_from_surface(position, inwards ? -normal : normal, kPositionError * max_abs(position), light.radiance,
-                             4 * kPiDouble * r * r, u_direction);
+    return emit_from_surface(position, inwards ? -normal : normal, kSampledPointRounding * max_abs(position),
+                             light.radiance, 4 * kPiDouble * r * r, u_direction);
 }
 
 inline LightBound bound(const SphereLight &light) {

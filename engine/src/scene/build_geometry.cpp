@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Instances and spheres, relative to the camera, and the BVH over them.
 #include "base/error.h"
+#include "math/rounding.h"
 #include "scene/builder.h"
 
 #include <cmath>
 
 namespace glimmer {
-
-namespace {
-
-constexpr float kRoundingUnits = 0x1p-21f; // eight roundings of 2^-24 in a hit's chain of operations
-
-} // namespace
 
 /// The object's mesh, or a copy of it without the triangles whose material is absent; null when none is left.
 std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription &object) const {
@@ -118,7 +113,7 @@ Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
         const Vec3d normal = normalize(Vec3d(ray.origin) + Vec3d(ray.direction) * double(hit.t) - sphere.center);
         at.position = Vec3f(sphere.center + normal * sphere.radius);
         at.geometric_normal = at.shading_normal = Vec3f(normal);
-        at.error = kRoundingUnits * max_abs(at.position);
+        at.error = kHitRounding * max_abs(at.position);
         at.material = sphere_materials[hit.primitive];
         at.object_index = sphere_indices[hit.primitive];
         at.body = uint32_t(accel->instances().size()) + hit.primitive;
@@ -149,7 +144,7 @@ Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
     const float local = std::max(max_abs(a), std::max(max_abs(b), max_abs(c)));
     const float stretch =
         std::max(max_abs(instance.linear[0]), std::max(max_abs(instance.linear[1]), max_abs(instance.linear[2])));
-    at.error = kRoundingUnits * (max_abs(at.position) + stretch * local + max_abs(instance.translation));
+    at.error = kHitRounding * (max_abs(at.position) + stretch * local + max_abs(instance.translation));
     at.material = object_materials[instance.object][mesh.slot(hit.primitive)];
     at.object_index = instance.object_index;
     at.body = at.instance = hit.instance;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The lights: emissive spheres, all emissive triangles as one, lamps, the environment.
 #include "base/error.h"
+#include "math/rounding.h"
 #include "scene/builder.h"
 
 #include <cmath>
@@ -77,7 +78,7 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
             const auto &[a, b, c] = out.vertices;
             const double area = 0.5 * length(cross(b - a, c - a));
             out.radiance = emission(t);
-            out.error = kPositionError * (local + max_abs(instance.translation));
+            out.error = kSampledPointRounding * (local + max_abs(instance.translation));
             const double strength = area * double(mean_component(out.radiance));
             if (!(strength > 0)) {
                 light.triangle_of.push_back(kNone);

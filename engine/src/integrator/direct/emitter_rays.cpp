@@ -2,16 +2,11 @@
 #include "integrator/direct/emitter_rays.h"
 
 #include "camera/camera_sample.h"
+#include "integrator/direct/tuning.h"
 
 #include <cmath>
 
 namespace glimmer {
-
-namespace {
-
-constexpr uint32_t kMostDiscs = 64; // beyond, the look at each would cost more than the rays
-
-} // namespace
 
 EmitterRays::EmitterRays(const Scene &scene, uint32_t rays) : scene_(scene), rays_(rays) {
     if (rays == 0)
@@ -24,7 +19,7 @@ EmitterRays::EmitterRays(const Scene &scene, uint32_t rays) : scene_(scene), ray
         if (const auto disc = scene.camera.silhouette(b.center, b.radius, margin))
             discs_.push_back(*disc);
     }
-    if (discs_.size() > kMostDiscs)
+    if (discs_.size() > tuning::kMostSilhouettes)
         discs_.clear();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spheres that shine, as the camera sees them. Their rims against a dark sky decide the error of a picture that is good
-// elsewhere, and a camera ray alone costs a small part of a sample: pixels that a disc touches get more of them.
+// More camera rays in pixels where emissive spheres are seen. Their silhouettes against a dark background have most of
+// the error of a picture that is good elsewhere, and a camera ray alone costs a small part of a sample.
 #pragma once
 
 #include "integrator/trace_context.h"
@@ -11,17 +11,16 @@
 
 namespace glimmer {
 
-inline constexpr uint32_t kLightRays = 16; ///< more, a sample
-
 class EmitterRays {
   public:
-    /// rays: more camera rays a sample, a square number; 0: none.
+    /// rays: camera rays that a sample adds, a square number; 0: none.
     EmitterRays(const Scene &scene, uint32_t rays);
 
-    /// How many more rays the pixel gets: the same for all of its samples, or the mean would suffer.
+    /// How many rays the pixel's samples add: `rays` where a sphere may be seen, else 0. The same for all samples of a
+    /// pixel, since each ray of a sample has the same weight.
     uint32_t rays(uint32_t pixel_x, uint32_t pixel_y) const;
 
-    /// The sum over so many rays of the radiance of the spheres that they meet, stratified over filter and pixel.
+    /// The sum over so many camera rays, stratified over the pixel's filter, of the emission of the spheres they meet.
     Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &trace) const;
 
   private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/direct/ris_target.h"
 
+#include "integrator/direct/tuning.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,9 +10,7 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kGrazing = 1e-3f; // no cosine is less: a place at the edge of seeing a light may see some of it
-
-/// f cos of a lobe towards a sphere of light in the direction `to` whose half angle has this sine.
+/// f cos of a lobe towards a light: a sphere in the direction `to` whose angular radius has this sine.
 float towards(const Conductor &lobe, const Vec3f &wo, const Vec3f &to, float sine) {
     const Vec3f mirrored(-wo.x, -wo.y, wo.z);
     const float along = dot(mirrored, to), cosine = std::sqrt(1 - sine * sine);
@@ -19,8 +19,8 @@ float towards(const Conductor &lobe, const Vec3f &wo, const Vec3f &to, float sin
         const Vec3f aside = mirrored - to * along;
         wi = to * cosine + aside * (sine / std::max(length(aside), 1e-6f));
     }
-    wi.z = std::max(wi.z, kGrazing);
-    const float a2 = lobe.alpha * lobe.alpha, width = a2 / (a2 + 0.25f * sine * sine);
+    wi.z = std::max(wi.z, tuning::kLeastTargetCosine);
+    const float a2 = lobe.alpha * lobe.alpha, width = a2 / (a2 + tuning::kLightWidthInLobe2 * sine * sine);
     return mean_component(albedo(lobe)) * ggx_d(half_vector(wo, wi), lobe.alpha) *
            ggx_visibility(wo, wi, lobe.alpha, Masking::Smith) * wi.z * width;
 }
@@ -30,7 +30,7 @@ float towards(const WeightedLobe &l, const Vec3f &wo, const Vec3f &to, float sin
         return 0;
     if (const auto *metal = std::get_if<Conductor>(&l.lobe))
         return l.weight * towards(*metal, wo, to, sine);
-    return l.weight * mean_component(albedo(l.lobe)) * std::max(to.z, 0.5f * sine) / kPi;
+    return l.weight * mean_component(albedo(l.lobe)) * std::max(to.z, tuning::kLightAboveHorizon * sine) / kPi;
 }
 
 } // namespace
@@ -41,7 +41,7 @@ float ris_target(const Scene &scene, const Interaction &surface, Bsdf bsdf, cons
     const float side = std::copysign(1.0f, dot(wo, surface.geometric_normal));
     const Frame frame(surface.shading_normal * side);
     Vec3f wo_local = frame.to_local(wo);
-    wo_local.z = std::max(wo_local.z, kGrazing);
+    wo_local.z = std::max(wo_local.z, tuning::kLeastTargetCosine);
     float sum = 0;
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightBound &b = scene.lights.bound(i);

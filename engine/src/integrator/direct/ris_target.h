@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// About how much light a surface throws at the viewer straight from the scene's lights, were nothing in the way: what
-// points are chosen by where one of several is to be lit (never what they bring).
+// The target function of the resampled direct light of a pixel (../path/pixel_ris.inl): about how much light a surface
+// reflects towards the viewer straight from the scene's lights, if nothing stands between. It decides which candidate
+// is lit, never how much light it brings.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace glimmer {
 
-/// wo: unit, away from the surface. sigma: the least extinction of the channels. Lambert lobes count the light's
-/// middle; narrow ones the point of a sphere that is nearest to the mirrored ray, their peak lowered by what the
-/// light's width adds to theirs (Karis 2013, "Real Shading in Unreal Engine 4": representative points). Lights at
-/// infinity count as if they shone from all sides. 0 for glass and where nothing is rough.
+/// wo: unit, away from the surface. sigma: extinction of the channel that has the least, per length. For diffuse lobes
+/// a light counts at its centre; for glossy ones at the point of its sphere nearest to the mirrored ray, with the lobe
+/// widened by the light (representative points: Karis 2013, "Real Shading in Unreal Engine 4"). Lights at infinity
+/// count as if they came from all sides. 0 where nothing is rough.
 float ris_target(const Scene &scene, const Interaction &surface, Bsdf bsdf, const Vec3f &wo, float sigma);
 
 } // namespace glimmer

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene asks of the path integrator. Its code is compiled for a few sets of features (path_kernels.cpp): inside,
-// a test of one costs nothing and takes with it the code and the part of a path's state that the set has no use for.
-// All kernels draw the same numbers and do the same arithmetic, so they give the same bits: a feature may leave out
-// what would bring nothing, never change what is drawn. What each saves: bench/features.cpp.
+// What a scene needs of the path integrator. The inner loop is compiled for a few sets of features (kernels.cpp).
+// Within it, a test of a feature costs nothing, and without the feature its code and its part of the path's state are
+// gone. All kernels draw the same random numbers and do the same arithmetic, so that they give the same bits: a feature
+// may leave out what would bring nothing, but never change what is drawn. What each saves: bench/features.cpp.
 #pragma once
 
 #include "integrator/path/estimator_flags.h"
@@ -16,18 +16,18 @@ namespace glimmer {
 
 struct KernelFeatures {
     bool medium = false;
-    bool medium_walks = false; ///< medium that scatters, its light by paths alone: no vertices are shared
-    bool surfaces = false;     ///< anything that scatters light, not only spheres that shine
+    bool medium_walks = false; ///< the medium scatters, and paths walk through it by themselves: no light vertices
+    bool surfaces = false;     ///< surfaces that scatter light, not only emissive spheres
     bool dielectrics = false;
-    bool bvh = false;             ///< meshes, or more spheres than are tried one by one
-    bool other_lights = false;    ///< than spheres that shine
-    bool estimator_flags = false; ///< not all estimators are at work
+    bool bvh = false;             ///< there are meshes, or more spheres than are tried one by one
+    bool other_lights = false;    ///< lights other than emissive spheres
+    bool estimator_flags = false; ///< not all of EstimatorFlags are set
 
-    /// Lights are met by chance where light sampling could have found them.
+    /// Whether paths can meet a light by chance that light sampling could have found.
     constexpr bool meets_lights() const { return surfaces || medium_walks; }
 };
 
-/// Each feature, and what is left out of a scene that does not need it; empty: nothing to tell.
+/// A feature, and the line that tells a user what is left out of a scene that does not need it (may be empty).
 struct FeatureText {
     bool KernelFeatures::*feature;
     const char *name; ///< for benchmarks
@@ -52,12 +52,12 @@ constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {
             return false;
     return true;
 }
-static_assert(sizeof(KernelFeatures) == kFeatureTexts.size(), "a feature that no scene would be asked for");
+static_assert(sizeof(KernelFeatures) == kFeatureTexts.size(), "a feature without a row");
 
-/// shares: light vertices serve (plan_light_vertex_cache).
+/// The features that a scene needs. shares: it has light vertices (plan_light_vertex_cache).
 KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares);
 
-/// What of the engine such a scene has no use for, in words.
+/// What such a scene has no use for, in lines for the user.
 std::vector<std::string> left_out(const KernelFeatures &needed);
 
 } // namespace glimmer

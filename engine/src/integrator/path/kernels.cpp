@@ -9,7 +9,7 @@ namespace glimmer {
 
 namespace {
 
-/// The least first; the last has all features.
+/// The fewest features first; the last has all.
 constexpr PathKernel kKernels[] = {
     compiled<KernelFeatures{.medium = true}>("spheres that shine, in fog or none"),
     compiled<KernelFeatures{.surfaces = true, .bvh = true}>("surfaces lit by spheres, without fog and glass"),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scattering in the medium along a segment.
+// Scattering in the medium along a segment (docs/method.md, section 11; paths that walk through the medium without
+// light vertices are in section 9).
 #pragma once
 
 #include "integrator/mis.h"
@@ -17,21 +18,20 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
     const bool camera = state.depth == 0, several = state.seen_directly();
     const HenyeyGreenstein phase = medium.phase();
     const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
-    float looked = 1;
-    if (!several &&
-        has_light_vertices()) { // short segments between plates scatter next to nothing: seldom worth a look
-        looked = survival((Rgb(1) - medium.transmittance(state.ray, end)) * state.beta, state.rr_scale, origin,
-                          kRouletteScaleInMedium);
-        if (!(looked > 0) || (looked < 1 && sampler_.next_1d() >= looked))
+    float probability = 1;                  // of sampling at all
+    if (!several && has_light_vertices()) { // short segments between surfaces scatter next to nothing
+        probability = survival((Rgb(1) - medium.transmittance(state.ray, end)) * state.beta, state.rr_scale, origin,
+                               kRouletteScaleInMedium);
+        if (!(probability > 0) || (probability < 1 && sampler_.next_1d() >= probability))
             return;
     }
     for (uint32_t i = 0; i < choices(several); ++i) {
         const LightChoice choice = choose(i, several, origin, direction, end);
         if (scene().lights.bound(choice.index).infinite)
-            continue; // an endless medium lets nothing through from there
-        const EquiangularTable line = equiangular_table(choice.index, origin, direction, end);
-        const DistanceSample at = line.sample(camera ? sampler_.stratified_1d(dimension(Dimension::segment_distance, i))
-                                                     : sampler_.next_1d());
+            continue; // nothing comes through an endless medium
+        const EquiangularTable table = equiangular_table(choice.index, origin, direction, end);
+        const DistanceSample at = table.sample(
+            camera ? sampler_.stratified_1d(dimension(Dimension::segment_distance, i)) : sampler_.next_1d());
         if (!(at.pdf > 0) || !(at.t < kInfinity))
             continue;
         const Vec3f x = origin + direction * at.t;
@@ -50,17 +50,17 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
         if (is_black(arriving))
             continue;
         float weight = 1;
-        if (!light->delta && !has_light_vertices()) { // a pool's gathers are not lit by chance
+        if (!light->delta && !has_light_vertices()) { // nothing else meets lights from gather points
             float p_distance = split ? medium.collision_pdf(state.ray, state.beta, end, at.t)
                                      : medium.free_flight_pdf(state.ray, state.beta, at.t);
-            if (p_distance > 0) { // of the paths that scatter there roulette leaves this part
+            if (p_distance > 0) { // times the probability that roulette spares a path that scatters there
                 const Rgb at_collision =
                     state.beta * medium.scattering(x) * medium.transmittance(state.ray, at.t) * (1 / p_distance);
                 p_distance *= survival(at_collision, state.rr_scale, x, kRouletteScaleInMedium);
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
-        aov_of_scattering(state, PathClass::medium) += state.beta * arriving * (weight / looked);
+        aov_of_scattering(state, PathClass::medium) += state.beta * arriving * (weight / probability);
     }
 }
 
@@ -96,8 +96,8 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
     const bool along = samples_lights_along(state);
     if (!along)
         sample_light_in_medium(next, x, medium, true);
-    else // roulette is part of how light is met by chance: else thin medium keeps a share of it for one sample in
-         // millions
+    else // Roulette belongs to the density by which light is met by chance. Without it, a thin medium would leave a
+         // part of the light to one sample in millions.
         pdf *= survival(next.beta, next.rr_scale, x, kRouletteScaleInMedium);
     if (!survives(next, x, kRouletteScaleInMedium))
         return;

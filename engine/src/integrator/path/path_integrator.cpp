@@ -3,6 +3,7 @@
 
 #include "integrator/dielectrics_at.h"
 #include "integrator/direct/emitter_rays.h"
+#include "integrator/direct/tuning.h"
 #include "integrator/path/kernels.h"
 
 namespace glimmer {
@@ -14,7 +15,8 @@ class PathIntegrator final : public Integrator {
     PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &flags, bool full_kernel)
         : scene_(scene), limits_(limits), flags_(flags),
           around_camera_(dielectrics_at(scene, scene.camera.start_region().center)),
-          emitter_rays_(scene, around_camera_.empty() && !rays_start_apart() ? kLightRays * flags.light_rays : 0) {
+          emitter_rays_(scene,
+                        around_camera_.empty() && !rays_start_apart() ? tuning::kEmitterRays * flags.light_rays : 0) {
         if (flags_.light_vertices && flags_.segment_lights && flags_.deep_segment_lights)
             light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_);
         plan_ = plan_splitting(scene, flags);
@@ -35,17 +37,17 @@ class PathIntegrator final : public Integrator {
     FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
                       TraceContext &trace) const override {
         const auto *light_vertices = static_cast<const LightVertexBlock *>(block);
-        const uint32_t light_rays = emitter_rays_.rays(camera.pixel_x, camera.pixel_y);
-        const float primary_weight = 1 / float(1 + light_rays);
+        const uint32_t extra_rays = emitter_rays_.rays(camera.pixel_x, camera.pixel_y);
+        const float primary_weight = 1 / float(1 + extra_rays);
         const PathContext context{scene_,         limits_,        flags_,         plan_,
                                   light_vertices, camera.pixel_x, camera.pixel_y, primary_weight};
         FilmSample result =
             rays_start_apart()
                 ? kernel_->sample(context, camera.ray, dielectrics_at(scene_, camera.ray.origin), sampler, trace)
                 : kernel_->sample(context, camera.ray, around_camera_, sampler, trace);
-        if (light_rays)
+        if (extra_rays)
             result.emission +=
-                emitter_rays_.sum(light_rays, camera.pixel_x, camera.pixel_y, sampler, trace) * primary_weight;
+                emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, sampler, trace) * primary_weight;
         if (light_vertices) {
             result.medium += light_vertices->splatted(camera.pixel_x, camera.pixel_y);
             result.unfinished |= light_vertices->unfinished;
@@ -67,7 +69,7 @@ class PathIntegrator final : public Integrator {
     }
 
   private:
-    /// A lens or the near plane may carry camera rays across a wall of glass.
+    /// Whether camera rays start at different places, between which there may be the wall of a dielectric.
     bool rays_start_apart() const { return scene_.has_dielectrics && scene_.camera.start_region().radius > 0; }
 
     const Scene &scene_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unidirectional path tracing. Segments seen directly from the camera are split, never tossed a coin over: the light
-// that the medium scatters once along them is summed light by light, one path goes on from a point in the medium and
-// one from the surface behind.
+// The path integrator: camera paths with next-event estimation and multiple importance sampling, and a cache of light
+// vertices for what the medium scatters more than once. docs/method.md derives it.
 #pragma once
 
 #include "integrator/depth_limits.h"
@@ -13,7 +12,7 @@
 
 namespace glimmer {
 
-/// full_kernel: the one with all features; else the least that the scene can do with. Both give the same bits.
+/// full_kernel: take the kernel with all features, not the smallest that serves; both give the same bits.
 std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
                                                        const EstimatorFlags &flags, bool full_kernel = false);
 

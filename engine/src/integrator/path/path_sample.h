@@ -138,10 +138,12 @@ class PathSample {
         return state.seen_directly() ? flags().segment_lights : flags().deep_segment_lights;
     }
     bool every_light(bool several) const {
-        return several && flags().all_lights && scene().lights.size() <= kMaxLightsSampledEach;
+        return several && flags().all_lights && scene().lights.size() <= tuning::kMaxLightsSampledEach;
     }
     uint32_t choices(bool several) const {
-        return every_light(several) ? scene().lights.size() : several && flags().all_lights ? kLightsChosenOfMany : 1;
+        return every_light(several)            ? scene().lights.size()
+               : several && flags().all_lights ? tuning::kLightsChosenOfMany
+                                               : 1;
     }
     /// The i-th choice of a light at a place: a point, or a segment (origin, direction, end). Its `probability` is the
     /// expected number of samples of that light there.

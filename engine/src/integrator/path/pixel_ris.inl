@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The light straight from lights on what the camera sees first. Bevels narrower than a pixel mirror a moon where they
-// happen to lie right: few points of the pixel bring most of its light. So several points compete, each seen by its own
-// camera ray, and one is lit, chosen by the light expected there (Talbot, Cline, Egbert 2005, "Importance Resampling
-// for Global Illumination"): as one term of their sum, divided by the probability of being it, whatever is expected.
+// Direct light of what the camera sees first, by resampled importance sampling over the pixel (Talbot, Cline and Egbert
+// 2005, "Importance Resampling for Global Illumination"). Bevels narrower than a pixel mirror a light where they happen
+// to be turned right: few points of the pixel bring most of its light. So several candidates, each found by a camera
+// ray of its own, compete for being lit. One is chosen in proportion to the target function (ris_target.h), and its
+// light is divided by the probability of that choice: one term of the sum over the candidates, unbiased whatever the
+// target.
 #pragma once
 
 #include "camera/camera_sample.h"
@@ -15,52 +17,53 @@ namespace glimmer {
 
 template <KernelFeatures F>
 void PathSample<F>::pixel_ris() {
-    struct Seen {
+    struct Candidate {
         Ray ray;
         Interaction surface;
         Shading shading;
         Rgb beta;
-        float expected;
+        float target;
     };
-    std::array<Seen, kRisCandidates> points;
+    std::array<Candidate, tuning::kRisCandidates> candidates;
     uint32_t count = 0;
     float total = 0;
-    for (uint32_t i = 0; i < kRisCandidates; ++i) {
+    for (uint32_t i = 0; i < tuning::kRisCandidates; ++i) {
         const Vec2f u = sampler_.stratified_2d(dimension(Dimension::candidate_film, i));
-        const Vec2f u_pixel{(float(i % kRisStrataPerSide) + u.x) / kRisStrataPerSide,
-                            (float(i / kRisStrataPerSide) + u.y) / kRisStrataPerSide};
-        Seen &point = points[count];
-        point.ray = sample_camera_ray(scene(), context_.pixel_x, context_.pixel_y, u_pixel, sampler_.next_2d()).ray;
-        const auto hit = intersect(point.ray);
+        const Vec2f u_pixel{(float(i % tuning::kRisStrataPerSide) + u.x) / tuning::kRisStrataPerSide,
+                            (float(i / tuning::kRisStrataPerSide) + u.y) / tuning::kRisStrataPerSide};
+        Candidate &candidate = candidates[count];
+        candidate.ray = sample_camera_ray(scene(), context_.pixel_x, context_.pixel_y, u_pixel, sampler_.next_2d()).ray;
+        const auto hit = intersect(candidate.ray);
         if (!hit)
             continue;
-        point.surface = scene().interaction(point.ray, *hit);
-        point.beta = Rgb(1.0f / kRisCandidates);
+        candidate.surface = scene().interaction(candidate.ray, *hit);
+        candidate.beta = Rgb(1.0f / tuning::kRisCandidates);
         if constexpr (F.medium)
-            point.beta *= transmittance(scene().outside(), point.ray, hit->t);
-        point.shading = shade(point.surface, point.ray);
-        const float expected = ris_target(scene(), point.surface, point.shading.bsdf, -point.ray.direction, sigma_);
-        point.expected = max_component(point.beta) * expected;
-        if (!(point.expected > 0) || !(point.expected < kInfinity)) // nothing rough, or black
-            point.expected = 0;
-        total += point.expected;
+            candidate.beta *= transmittance(scene().outside(), candidate.ray, hit->t);
+        candidate.shading = shade(candidate.surface, candidate.ray);
+        const float target =
+            ris_target(scene(), candidate.surface, candidate.shading.bsdf, -candidate.ray.direction, sigma_);
+        candidate.target = max_component(candidate.beta) * target;
+        if (!(candidate.target > 0) || !(candidate.target < kInfinity)) // nothing rough, black, or out of range
+            candidate.target = 0;
+        total += candidate.target;
         ++count;
     }
     if (count == 0)
         return;
-    const float even = (total > 0 ? kRisUniformFraction : 1.0f) / float(count),
-                scale = total > 0 ? (1 - kRisUniformFraction) / total : 0.0f;
+    const float even = (total > 0 ? tuning::kRisUniformFraction : 1.0f) / float(count),
+                scale = total > 0 ? (1 - tuning::kRisUniformFraction) / total : 0.0f;
     float left = sampler_.next_1d();
     for (uint32_t i = 0; i < count; ++i) {
-        const float probability = even + scale * points[i].expected;
+        const float probability = even + scale * candidates[i].target;
         if (left >= probability && i + 1 < count) {
             left -= probability;
             continue;
         }
         State state;
-        state.ray = points[i].ray;
-        state.beta = points[i].beta * (1 / probability);
-        light_surface(state, points[i].surface, points[i].shading);
+        state.ray = candidates[i].ray;
+        state.beta = candidates[i].beta * (1 / probability);
+        light_surface(state, candidates[i].surface, candidates[i].shading);
         return;
     }
 }

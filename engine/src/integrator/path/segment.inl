@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One segment of a path: what stands at its end, what shines on the way.
+// One segment of a path: the emission that it meets, the medium along it, the surface at its end.
 #pragma once
 
 #include "integrator/dielectric_crossing.h"
 #include "integrator/mis.h"
 #include "integrator/path/path_sample.h"
 #include "integrator/return_bound.h"
+#include "math/rounding.h"
 
 #include <cmath>
 
@@ -38,8 +39,8 @@ void PathSample<F>::follow(State &state) {
     state.emission_mode = EmissionMode::mis;
 
     if (medium && medium->scatters() && state.scatter < context_.limits.scatter) {
-        const bool split =
-            has_light_vertices() || (flags().split && state.seen_directly() && stack_.size() < kMaxOpenBranches);
+        const bool split = has_light_vertices() ||
+                           (flags().split && state.seen_directly() && stack_.size() < tuning::kMaxOpenBranches);
         if (samples_lights_along(state))
             sample_lights_along(state, end, *medium, split);
         if (has_light_vertices()) {
@@ -57,7 +58,7 @@ void PathSample<F>::follow(State &state) {
     }
     if (!surface)
         return;
-    if (medium && state.seen_directly()) // an absorber in front of everything dims the picture, not what is behind it
+    if (medium && state.seen_directly()) // absorption before everything dims the picture evenly: no reason to end paths
         state.rr_scale *= least_absorbed(*medium, end);
     if constexpr (F.surfaces)
         scatter_at_surface(state, *surface, shading.bsdf);
@@ -65,12 +66,13 @@ void PathSample<F>::follow(State &state) {
 
 template <KernelFeatures F>
 bool PathSample<F>::may_meet_light(const Ray &ray) const {
-    if (scene().lights.size() > kMaxLightsSampledEach)
+    if (scene().lights.size() > tuning::kMaxLightsSampledEach)
         return true;
     for (uint32_t i = 0; i < scene().lights.size(); ++i) {
         const LightBound &b = scene().lights.bound(i);
         const Vec3f way = b.center - ray.origin;
-        const float radius2 = b.radius * b.radius * kLightBoundFactor + kLightBoundMargin2 * length_squared(way);
+        const float radius2 =
+            b.radius * b.radius * tuning::kLightBoundFactor + tuning::kLightBoundMargin2 * length_squared(way);
         if (b.infinite || length_squared(way) <= radius2 ||
             (dot(way, ray.direction) > 0 && length_squared(cross(way, ray.direction)) <= radius2))
             return true;
@@ -99,7 +101,7 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
 
 template <KernelFeatures F>
 void PathSample<F>::add_lamps(const State &state, float end, const Medium *medium) {
-    if (!F.other_lights || state.depth == 0) // the camera does not see lamps
+    if (!F.other_lights || state.depth == 0) // lamps are invisible to the camera
         return;
     Ray ray = state.ray;
     ray.t_max = end;
@@ -129,23 +131,24 @@ void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float d
 template <KernelFeatures F>
 float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, const LightHit &hit) const {
     if constexpr (F.meets_lights()) {
-        const auto &o = state.previous;
+        const auto &previous = state.previous;
         if (state.emission_mode == EmissionMode::skip)
             return 0;
-        if (o.kind == ScatterKind::specular || light == kNone)
+        if (previous.kind == ScatterKind::specular || light == kNone)
             return 1;
-        const float at_light = light_pdf(scene().lights[light], o.position, state.ray.direction, hit);
-        if (o.kind == ScatterKind::surface)
-            return balance(o.pdf, expected_samples(o.several_lights, light, o.position) * at_light);
+        const float at_light = light_pdf(scene().lights[light], previous.position, state.ray.direction, hit);
+        if (previous.kind == ScatterKind::surface)
+            return balance(previous.pdf,
+                           expected_samples(previous.several_lights, light, previous.position) * at_light);
         if (scene().lights.bound(light).infinite)
             return 1;
-        if (!o.along_segment)
-            return balance(o.pdf, expected_samples(false, light, o.position) * at_light);
+        if (!previous.along_segment)
+            return balance(previous.pdf, expected_samples(false, light, previous.position) * at_light);
         if constexpr (F.medium_walks) {
-            const PreviousSegment &s = o.segment;
-            const EquiangularTable line = equiangular_table(light, s.origin, s.direction, s.end);
-            const float samples = expected_samples(o.several_lights, light, s.origin, s.direction, s.end);
-            return balance(s.distance_pdf * o.pdf, samples * line.pdf(s.distance) * at_light);
+            const PreviousSegment &s = previous.segment;
+            const EquiangularTable table = equiangular_table(light, s.origin, s.direction, s.end);
+            const float samples = expected_samples(previous.several_lights, light, s.origin, s.direction, s.end);
+            return balance(s.distance_pdf * previous.pdf, samples * table.pdf(s.distance) * at_light);
         }
     }
     return 1;
@@ -153,9 +156,8 @@ float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, con
 
 template <KernelFeatures F>
 Rgb PathSample<F>::visibility(const Vec3f &origin, const LightSample &light, float origin_offset) {
-    constexpr float direction_error = 0x1p-21f; // of a unit vector in float32, and of Embree's own arithmetic
     const float short_of_light =
-        light.distance * (1 - direction_error / light.facing) - (light.error + origin_offset) / light.facing;
+        light.distance * (1 - kHitRounding / light.facing) - (light.error + origin_offset) / light.facing;
     const float distance = std::max(short_of_light, 0.0f);
     const Ray ray{origin, light.direction, distance};
     return glimmer::visibility<F.bvh>(scene(), ray, trace_, light.ignored_sphere);
@@ -165,7 +167,7 @@ template <KernelFeatures F>
 float PathSample<F>::survival(const Rgb &beta, float rr_scale, const Vec3f &x, float roulette_scale) const {
     const float early = flags().late_roulette ? roulette_scale : 1;
     const float weight = early * max_component(beta) / rr_scale * return_bound(scene(), x);
-    return weight > 0 ? std::min(weight, 1.0f) : 0; // NaN does not live on
+    return weight > 0 ? std::min(weight, 1.0f) : 0; // also for NaN
 }
 
 template <KernelFeatures F>

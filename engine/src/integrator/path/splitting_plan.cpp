@@ -21,7 +21,7 @@ double pixel_contrast(const Scene &scene) {
     Sampler sampler(kPilotStream, 0, 0, 0, 0);
     const FilmSettings &film = scene.film;
     ClosureArena arena;
-    const auto expected = [&](uint32_t x, uint32_t y) {
+    const auto target = [&](uint32_t x, uint32_t y) {
         const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
         const auto hit = scene.accel->intersect(ray);
         if (!hit)
@@ -32,11 +32,11 @@ double pixel_contrast(const Scene &scene) {
         return double(ris_target(scene, surface, shading.bsdf, -ray.direction, 0));
     };
     double variance = 0, square = 0;
-    for (uint32_t i = 0; i < kContrastPilotPairs; ++i) {
+    for (uint32_t i = 0; i < tuning::kContrastPilotPairs; ++i) {
         const Vec2f u = sampler.next_2d();
         const uint32_t x = pick_pixel(film.crop_x, film.crop_width, u.x),
                        y = pick_pixel(film.crop_y, film.crop_height, u.y);
-        const double a = expected(x, y), b = expected(x, y);
+        const double a = target(x, y), b = target(x, y);
         if (!std::isfinite(a) || !std::isfinite(b))
             continue;
         variance += (a - b) * (a - b) / 2;
@@ -47,10 +47,11 @@ double pixel_contrast(const Scene &scene) {
 
 SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &flags) {
     const bool medium = scene.medium && scene.medium->scatters();
-    const bool glints = (flags.pixel_points || (flags.branch && !medium)) && pixel_contrast(scene) > kContrastOfGlints;
+    const bool glints =
+        (flags.pixel_points || (flags.branch && !medium)) && pixel_contrast(scene) > tuning::kContrastOfGlints;
     return {!flags.branch      ? 1
-            : medium || glints ? kBranchesWhereVaried
-                               : kBranchesElsewhere,
+            : medium || glints ? tuning::kBranchesWhereVaried
+                               : tuning::kBranchesElsewhere,
             flags.pixel_points && glints};
 }
 

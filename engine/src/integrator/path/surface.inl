@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scattering at surfaces and glass.
+// Scattering at the surface where a segment ends: its lights, and the paths that go on.
 #pragma once
 
 #include "integrator/dielectric_crossing.h"
@@ -56,7 +56,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
     if (state.seen_directly())
         result_.albedo = albedo(bsdf);
 
-    // Where mirrors could send each branch to the next surface that branches, one goes on.
+    // A mirror could send each branch to another surface that branches in turn, so only one goes on from there.
     const uint32_t branches = state.seen_directly() && !has_specular(bsdf) ? context_.plan.branches : 1;
     const bool lit_by_ris = camera && context_.plan.pixel_ris;
     if (!is_specular(bsdf) && !lit_by_ris)
@@ -69,7 +69,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
         if (!s || (s->specular && lobes == Lobes::bounded))
             continue;
         const Vec3f wi = normalize(frame.to_world(s->wi));
-        if (!(dot(wi, geometric) > 0)) // below the true surface: a shading normal's promise that cannot be kept
+        if (!(dot(wi, geometric) > 0)) // above the shading normal's horizon, but below the true surface
             continue;
         State next = state;
         next.beta *= s->weight * (1 / float(branches));
@@ -144,10 +144,10 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
     const Vec3f x = light_sampling_origin(surface, geometric);
     struct Candidate {
         LightSample light;
-        Rgb value; ///< unless hidden
+        Rgb value; ///< what it brings unless it is hidden
         float part;
     };
-    std::array<Candidate, kMaxLightsSampledEach> candidates;
+    std::array<Candidate, tuning::kMaxLightsSampledEach> candidates;
     uint32_t count = 0;
     const bool few_rays = (!several || (camera && context_.plan.pixel_ris)) && every_light(true);
     for (uint32_t i = 0; i < choices(several || few_rays); ++i) {
@@ -177,8 +177,8 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         parts += candidates[i].part;
     for (uint32_t i = 0; i < count; ++i) {
         Candidate &c = candidates[i];
-        // Beyond the first surface about kShadowRaysBeyondFirstSurface are spent, on each light by its part of the sum.
-        const float tested = few_rays ? std::min(kShadowRaysBeyondFirstSurface * c.part / parts, 1.0f) : 1.0f;
+        // Beyond the first surface, each light gets its shadow ray with a probability by its part of the sum.
+        const float tested = few_rays ? std::min(tuning::kShadowRaysBeyondFirstSurface * c.part / parts, 1.0f) : 1.0f;
         if (tested < 1 && !(sampler_.next_1d() < tested))
             continue;
         const Vec3f origin = surface.origin_towards(c.light.direction);

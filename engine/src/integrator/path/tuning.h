@@ -2,16 +2,18 @@
 // The constants of the path integrator that are neither physics nor interface, each with its source. None of them
 // changes the mean of a picture, only its noise and the time that it takes.
 //
-// "measured": the value was chosen by error against CPU time. To measure it again, change it, build, and compare with
-// `python3 build.py bench` on the scenes that the comment names.
+//   derived:  follows from the argument that is given.
+//   measured: `build.py bench --tuning NAME` varies the constant and prints variance times CPU time against this value.
+//   chosen:   set by hand; nobody has to believe that it is the best value.
 #pragma once
 
+#include "base/tunable.h"
 #include "sampling/dimensions.h"
 
 #include <cstddef>
 #include <cstdint>
 
-namespace glimmer {
+namespace glimmer::tuning {
 
 // Choice of lights (path_sample.h)
 
@@ -28,21 +30,23 @@ static_assert(kMaxLightsSampledEach <= dimension_count(Dimension::segment_distan
 
 /// Expected number of shadow rays at a surface that the camera does not see first, where every light is sampled: each
 /// light gets its ray with a probability that follows its part of the sum. Chosen.
-inline constexpr float kShadowRaysBeyondFirstSurface = 2;
+GLIMMER_TUNABLE_CONSTANT(float, kShadowRaysBeyondFirstSurface, 2);
 
 // Splitting (splitting_plan.h)
 
-/// Paths that go on from the first surface where light there varies much within a pixel or a medium scatters (whose
-/// work along the camera's ray the branches share), and elsewhere. Measured: scenes glimmervoid, clearing and a field
-/// of plates, with and without their fog.
-inline constexpr uint32_t kBranchesWhereVaried = 4, kBranchesElsewhere = 2;
+/// Paths that go on from the first surface: where its light varies much within a pixel or a medium scatters, whose work
+/// along the camera's ray the branches share; and elsewhere. Measured.
+GLIMMER_TUNABLE_CONSTANT(uint32_t, kBranchesWhereVaried, 4);
+GLIMMER_TUNABLE_CONSTANT(uint32_t, kBranchesElsewhere, 2);
+#ifndef GLIMMER_TUNABLE
 static_assert(kBranchesElsewhere <= kBranchesWhereVaried &&
                   kBranchesWhereVaried <= dimension_count(Dimension::branch_lobe) &&
                   kBranchesWhereVaried <= dimension_count(Dimension::branch_direction),
               "every branch needs numbers of its own");
-/// Pixel contrast (variance over squared mean, see pixel_contrast) above which surfaces count as glinting. Measured: a
-/// field of plates of alpha .25 (contrast about .35) loses by candidates, glimmervoid and clearing gain.
-inline constexpr double kContrastOfGlints = 0.8;
+#endif
+/// Pixel contrast (variance over squared mean, see pixel_contrast) above which surfaces count as glinting. Measured:
+/// rough metal, whose contrast is lower, loses by the candidates of pixel_ris.inl; smooth bevels gain.
+GLIMMER_TUNABLE_CONSTANT(double, kContrastOfGlints, 0.8);
 /// Pairs of camera rays of the pilot that estimates the contrast. Chosen: a few milliseconds.
 inline constexpr uint32_t kContrastPilotPairs = 4096;
 /// Branches of one camera sample still to follow, beyond which a segment is no longer split into two. Chosen: far
@@ -57,7 +61,7 @@ inline constexpr uint32_t kRisCandidates = kRisStrataPerSide * kRisStrataPerSide
 static_assert(kRisCandidates <= dimension_count(Dimension::candidate_film), "every candidate needs numbers of its own");
 /// Part of the choice that is uniform over the candidates, for light that the target function did not expect. Bounds
 /// the weights by kRisCandidates over this. Chosen.
-inline constexpr float kRisUniformFraction = 0.1f;
+GLIMMER_TUNABLE_CONSTANT(float, kRisUniformFraction, 0.1f);
 
 // Bounds of lights (segment.inl)
 
@@ -66,4 +70,4 @@ inline constexpr float kRisUniformFraction = 0.1f;
 inline constexpr float kLightBoundFactor = 1.001f;
 inline constexpr float kLightBoundMargin2 = 1e-6f; ///< relative to the squared distance
 
-} // namespace glimmer
+} // namespace glimmer::tuning

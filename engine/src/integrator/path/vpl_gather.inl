@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light scattered more than once, from the vertices of light paths (light_vertex_cache.h).
+// Light that reaches the medium scattered (docs/method.md, sections 3 to 5): bounded connections of gather points to
+// the wave's light vertices, and compensation rays for what the bounds take away.
 #pragma once
 
 #include "integrator/path/path_sample.h"
@@ -40,17 +41,18 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
     state.rr_scale *= points;
     aov_of_scattering(state, PathClass::medium) +=
         state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, sampler_, trace_);
-    const float u = sampler_.next_1d(); // P(k d0(x) > d) = 1 - w(d)
-    const float k = std::sqrt((1 - u) / std::max(u, 1e-12f)) *
-                    context_.light_vertices->settings.clamp_distance_scale(scene().camera.distance(x));
-    state.medium_compensation_radius = k * context_.light_vertices->settings.medium_clamp_distance;
-    state.surface_compensation_radius = k * context_.light_vertices->settings.surface_clamp_distance;
-    const Vec3f seen = state.ray.direction;
-    state.ray = {x, scene().medium->phase().sample(seen, sampler_.next_2d()).direction};
-    const float splat = t > 0 ? sampler_.next_1d() : 1;
-    if constexpr (F.surfaces) // nothing else sends beams
-        state.splatted = t > 0 && splat < splat_fraction(scene().camera.footprint(t), seen, state.ray.direction,
-                                                         context_.light_vertices->settings);
+    const VplSettings &settings = context_.light_vertices->settings;
+    const float u = sampler_.next_1d(); // P(k d0 > d) = 1 - w(d), equation (3)
+    const float k =
+        std::sqrt((1 - u) / std::max(u, 1e-12f)) * settings.clamp_distance_scale(scene().camera.distance(x));
+    state.medium_compensation_radius = k * settings.medium_clamp_distance;
+    state.surface_compensation_radius = k * settings.surface_clamp_distance;
+    const Vec3f view = state.ray.direction;
+    state.ray = {x, scene().medium->phase().sample(view, sampler_.next_2d()).direction};
+    const float u_splat = t > 0 ? sampler_.next_1d() : 1;
+    if constexpr (F.surfaces) // without surfaces there are no splats
+        state.splatted =
+            t > 0 && u_splat < splat_fraction(scene().camera.footprint(t), view, state.ray.direction, settings);
     state.previous = {};
     ++state.depth;
     ++state.scatter;
@@ -66,6 +68,7 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
     const bool splatted = state.splatted;
     state.medium_compensation_radius = state.surface_compensation_radius = kInfinity;
     state.splatted = false;
+    // Without a splat, the ray also brings the remainder of a BSDF that exceeds its bound, from any distance.
     const float reach = splatted || is_bounded(scene().max_value)
                             ? std::max(medium_compensation_radius, surface_compensation_radius)
                             : kInfinity;
