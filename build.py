@@ -683,7 +683,7 @@ def arguments() -> argparse.ArgumentParser:
         "check", "Render stiff and extreme scenes whose pictures are known by a formula; print a table.", True
     )
     item.add_argument("--quick", action="store_true", help="the short tier, which the tests run too")
-    item.add_argument("--integrator", choices=("path", "report"), default="path")
+    item.add_argument("--integrator", choices=("path", "baseline"), default="path")
     item.add_argument("--only", metavar="TEXT", help="the cases whose name holds it")
     item.add_argument("--cycles", action="store_true", help="the cases that Cycles can express, in both")
     item.add_argument(

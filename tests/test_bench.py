@@ -185,11 +185,11 @@ def test_a_scene_is_measured(
     """Small, from the .blend to the page. The seeds are fixed; of all seeds, one in a thousand would fail. Again, it
     renders nothing, unless a run was lost.
     """
-    plan = Plan((32, 18), {"path": (1, 4), "report": (1, 4), "Cycles": (2, 64)}, 4, 16, 6)
+    plan = Plan((32, 18), {"path": (1, 4), "baseline": (1, 4), "Cycles": (2, 64)}, 4, 16, 6)
     folder = tmp_path / "runs"
     tools = Renderers(glimmer_command, blender, with_cycles)
     result, version = measure(SCENES[0], plan, tools, folder)
-    assert list(result.entries) == ["path", "report", *(["Cycles"] if with_cycles else [])]
+    assert list(result.entries) == ["path", "baseline", *(["Cycles"] if with_cycles else [])]
     assert version[0].isdigit()
     for name, entry in result.entries.items():
         assert [[point.samples for point in row] for row in entry.points] == [list(plan.levels[name])] * 4
@@ -210,7 +210,7 @@ def test_a_scene_is_measured(
     lost.unlink()
     again, _ = measure(SCENES[0], plan, tools, folder)
     assert rendered == [Task(4, 2)]
-    same = [name for name in result.entries if name != "report"]
+    same = [name for name in result.entries if name != "baseline"]
     assert [again.entries[name] for name in same] == [result.entries[name] for name in same]
 
 
@@ -323,7 +323,7 @@ def test_peers_show_the_same_picture(
 ) -> None:
     """Fetches them from PyPI. The seeds are fixed; of all seeds, one in a thousand would fail."""
     build.install_packages(build.wanted_packages((peer,), blender))
-    plan = Plan((64, 36), {"path": (1, 4), "report": (1, 4), peer: (16, 64)}, 4, 32, 6)
+    plan = Plan((64, 36), {"path": (1, 4), "baseline": (1, 4), peer: (16, 64)}, 4, 32, 6)
     tools = Renderers(glimmer_command, blender, False, [peer_of(f"{peer}={build.virtual_environment(peer)}")])
     result, _ = measure(scenes_of(scene)[0], plan, tools, tmp_path / "runs")
     assert not result.cannot and agrees(result.entries[peer], [result]), result.entries[peer].agreement

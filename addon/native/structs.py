@@ -242,7 +242,7 @@ class ParameterInfo(ctypes.Structure):
 
 
 class IntegratorInfo(ctypes.Structure):
-    _fields_ = [("name", c_char_p), ("help", c_char_p)]
+    _fields_ = [("name", c_char_p), ("help", c_char_p), ("former_name", c_char_p)]
 
 
 # Each description and the function of the library that fills it and says how large the library believes it to be.

@@ -8,11 +8,14 @@ import bpy
 from ..native.library import load
 from ..scene.problems import GlimmerError
 
+# A .blend file stores an integrator's number, which came from the name that it had when it was new.
+_FIRST_NAMES = {"baseline": "report"}
+
 # Blender keeps only the C strings of dynamic items, so Python has to keep their owners.
 _integrator_items: list[tuple[str, str, str, int]] = []
 
 
-def _list_integrators(
+def list_integrators(
     group: bpy.types.PropertyGroup, context: bpy.types.Context | None
 ) -> list[tuple[str, str, str, int]]:
     if not _integrator_items:
@@ -23,8 +26,8 @@ def _list_integrators(
         for position, (name, text) in enumerate(known):
             if "-no-" in name:  # less one estimator: for comparisons by the command line
                 continue
-            # A file stores the number: the default's is 0, the others' depend on their names, never on their order.
-            number = 0 if position == 0 else crc32(name.encode()) & 0x7FFFFFFF
+            # The default's number is 0, the others' depend on their names, never on their order.
+            number = 0 if position == 0 else crc32(_FIRST_NAMES.get(name, name).encode()) & 0x7FFFFFFF
             _integrator_items.append((name, name.replace("_", " ").title(), text, number))
     return _integrator_items
 
@@ -69,7 +72,7 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         " nothing in even haze",
         default=False,
     )
-    integrator: bpy.props.EnumProperty(name="Integrator", description="How light is followed", items=_list_integrators)
+    integrator: bpy.props.EnumProperty(name="Integrator", description="How light is followed", items=list_integrators)
     seed: bpy.props.IntProperty(
         name="Seed", description="Another seed gives other noise and the same picture", default=0, min=0
     )

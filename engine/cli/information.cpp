@@ -22,6 +22,13 @@ std::vector<std::string> integrator_names() {
     return names;
 }
 
+std::string renamed_integrator(const std::string &name) {
+    for (uint32_t i = 0; const auto *info = glimmer_integrator_info(i); ++i)
+        if (info->former_name && name == info->former_name)
+            return info->name;
+    return {};
+}
+
 std::vector<std::string> pass_names() {
     std::vector<std::string> names;
     for (uint32_t i = 0; const auto *info = glimmer_pass_info(i); ++i)

@@ -8,6 +8,8 @@
 namespace glimmer {
 
 std::vector<std::string> integrator_names();
+/// The present name of an integrator that was called `name` before; empty where none was.
+std::string renamed_integrator(const std::string &name);
 /// In the order of glimmer_pass.
 std::vector<std::string> pass_names();
 

@@ -53,7 +53,7 @@ uint32_t pass_bits(const std::string &text) {
 
 void expect_integrator(const std::string &name) {
     const auto names = integrator_names();
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (std::find(names.begin(), names.end(), name) == names.end() && renamed_integrator(name).empty())
         throw InputError("--integrator: " + in_quotes(name) + " is not an integrator; integrators are " +
                          quoted_list(names));
 }

@@ -2,6 +2,7 @@
 #include "render_command.h"
 
 #include "checkpoint.h"
+#include "information.h"
 #include "interrupt.h"
 #include "picture/atomic_file.h"
 #include "picture/picture_file.h"
@@ -125,13 +126,12 @@ std::string summary(const RenderOptions &options, const glimmer_progress &progre
 void write_results(const RenderOptions &options, const LoadedScene &scene, glimmer_render *render,
                    const glimmer_progress &progress, const Report &report) {
     Picture picture = read_render(render, scene.film, options.passes, progress.samples >= 2);
-    const auto *integrator = glimmer_integrator_info(0);
     picture.info = {progress.samples,
                     {std::to_string(options.seed)},
                     progress.seconds,
                     glimmer_version(),
                     scene.hash,
-                    options.integrator.empty() ? integrator->name : options.integrator,
+                    report.value("integrator", std::string()),
                     report_texts(report, "biased_by")};
     // The picture last: where it stands, all is there.
     if (options.report)
@@ -160,6 +160,8 @@ int run_render(const RenderOptions &options) {
     show_warnings(scene.scene.get(), file, line);
 
     const RenderHandle render = create_render(scene.scene.get(), scene.limits, options);
+    if (const std::string present = renamed_integrator(options.integrator); !present.empty())
+        line.say("--integrator: warning: " + in_quotes(options.integrator) + " is now called " + in_quotes(present));
     expect_writable(options.output);
     if (options.curve)
         expect_plottable(*options.curve);

@@ -38,7 +38,7 @@ void load(const std::filesystem::path &file) {
     if (uint64_t(scene.film.width) * scene.film.height > kMostPixels)
         return;
     check(glimmer_scene_commit(scene.scene.get(), 1), "scene");
-    for (const char *integrator : {"path", "report"})
+    for (const char *integrator : {"path", "baseline"})
         render(scene.scene.get(), scene.limits, integrator);
 }
 

@@ -292,8 +292,9 @@ typedef struct glimmer_pass_info_t {
 GLIMMER_API const glimmer_pass_info_t *glimmer_pass_info(uint32_t pass);
 
 typedef struct glimmer_integrator_info_t {
-    const char *name; /* "path", "report" */
+    const char *name; /* "path", "baseline" */
     const char *help;
+    const char *former_name; /* still accepted as a name, with a warning in the report; may be null */
 } glimmer_integrator_info_t;
 /* Null when index is out of range; 0 is the default. */
 GLIMMER_API const glimmer_integrator_info_t *glimmer_integrator_info(uint32_t index);

@@ -31,7 +31,7 @@ from tests.bench.report import Entry, SceneResult, Setting, markdown
 from tests.bench.scenes import SCENES, BenchScene
 
 ROOT = Path(__file__).resolve().parents[2]
-INTEGRATORS = ("path", "report")
+INTEGRATORS = ("path", "baseline")
 PEERS = {"mitsuba": "mitsuba", "luxcore": "pyluxcore"}  # their packages
 _REFERENCE_SEED = 1_000_000
 _SINGLE_SEED = 10_000
@@ -50,7 +50,7 @@ _MORE, _FEWER = (4, 16, 64, 256), (2, 8, 32, 128)
 # On two quiet cores half an hour; with Mitsuba and LuxCore twice that.
 FULL = Plan(
     (240, 135),
-    {"path": (1, 4, 16, 64), "report": _MORE, "Cycles": _FEWER, "mitsuba": _MORE, "luxcore": _FEWER},
+    {"path": (1, 4, 16, 64), "baseline": _MORE, "Cycles": _FEWER, "mitsuba": _MORE, "luxcore": _FEWER},
     4,
     64,
     9,
@@ -58,7 +58,7 @@ FULL = Plan(
 # Four minutes; with the two peers ten.
 QUICK = Plan(
     (96, 54),
-    {"path": (1, 4, 16, 64), "report": _FEWER, "Cycles": _FEWER, "mitsuba": _MORE, "luxcore": _FEWER},
+    {"path": (1, 4, 16, 64), "baseline": _FEWER, "Cycles": _FEWER, "mitsuba": _MORE, "luxcore": _FEWER},
     3,
     40,
     9,

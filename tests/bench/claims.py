@@ -91,7 +91,7 @@ def main(argv: Sequence[str]) -> int:
     sys.stdout.write("| scene, integrator | error made | relmse | interval | certified | held | held, certified |\n")
     for scene in (scene for scene in SCENES if scene.name in NAMES):
         stage = set_stage(given.blender, scene, SIZE, ROOT / "build" / "bench" / "claims" / scene.name)
-        for integrator in ("path", "report"):
+        for integrator in ("path", "baseline"):
             glimmer = Glimmer(given.glimmer, integrator)
             tasks = {n: [Task(n, _FIRST_SEED + seed) for seed in range(given.seeds)] for n in LOOKS}
             for wanted in tasks.values():

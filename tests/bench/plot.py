@@ -11,9 +11,9 @@ from matplotlib import pyplot as plt
 from tests.bench.errors import fit, mean_points
 from tests.bench.report import TARGETS, SceneResult, agrees
 
-_STYLE = {"path": ("#1b6ca8", "o"), "report": ("#c44e52", "s"), "Cycles": ("#5a5a5a", "^")}
+_STYLE = {"path": ("#1b6ca8", "o"), "baseline": ("#c44e52", "s"), "Cycles": ("#5a5a5a", "^")}
 _STYLE |= {"mitsuba": ("#2f8f5b", "D"), "luxcore": ("#b07aa1", "v")}
-_LABEL = {"path": "Glimmer path", "report": "Glimmer report", "mitsuba": "Mitsuba 3", "luxcore": "LuxCore"}
+_LABEL = {"path": "Glimmer path", "baseline": "Glimmer baseline", "mitsuba": "Mitsuba 3", "luxcore": "LuxCore"}
 _COLUMNS = 3
 
 

@@ -18,6 +18,7 @@ glimmer = inside.enable()
 from glimmer import reports  # noqa: E402 - the add-on's name inside Blender
 from glimmer.film import passes  # noqa: E402
 from glimmer.native import render as native_render  # noqa: E402
+from glimmer.properties import scene as scene_properties  # noqa: E402
 
 facts: dict[str, Any] = {}
 
@@ -64,12 +65,13 @@ def settings() -> None:
     facts["adaptive_summary"] = reports.summary(reports.last())
     ours.samples, ours.use_samples = samples, False
     ours.use_target_error, ours.use_seconds, ours.seconds, ours.use_adaptive = False, True, 0.5, False
-    ours.integrator, ours.seed, ours.use_max_depth, ours.max_depth = "report", 7, True, 1
+    ours.integrator, ours.seed, ours.use_max_depth, ours.max_depth = "baseline", 7, True, 1
     scene.render.threads_mode = "AUTO"
     inside.render(OUT / "settings.exr")
     facts["time_report"] = dict(reports.last())
     ours.use_seconds, ours.use_samples, ours.use_max_depth, ours.seed = False, True, False, 0
     ours.property_unset("integrator")
+    facts["integrator_numbers"] = {name: number for name, _, _, number in scene_properties.list_integrators(ours, None)}
 
 
 def scene_file() -> None:

@@ -5,6 +5,7 @@ import json
 import subprocess
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 import OpenImageIO
@@ -173,8 +174,13 @@ def test_a_time_limit_and_the_rest_of_the_settings_arrive(facts: dict[str, Any])
     assert report["adaptive"] is None
     # One pass over 60 x 40 pixels takes some milliseconds; the limit is looked at between passes.
     assert 0.4 < report["seconds"]["render"] < 5.0
-    assert (report["integrator"], report["seed"]) == ("report", 7)
+    assert (report["integrator"], report["seed"]) == ("baseline", 7)
     assert any("depth" in line for line in report["biased_by"])
+
+
+def test_files_of_before_open_with_their_integrator(facts: dict[str, Any]) -> None:
+    """A .blend file stores a number, which came from the integrator's name of that time."""
+    assert facts["integrator_numbers"] == {"path": 0, "baseline": crc32(b"report") & 0x7FFFFFFF}
 
 
 def test_the_report_is_whole(facts: dict[str, Any]) -> None:

@@ -16,7 +16,7 @@ from tests.render.statistics import MOST_SEEDS, ROUNDING, Clock, Measurement, Pi
 ALONG = np.array([0.0, 1.0, 0.0])
 LEAST = 2.0**-149
 """The least float32 above 0."""
-FLIES_PAST = Limit("noise: its free flights seldom end near the light", np.inf, ("report",))
+FLIES_PAST = Limit("noise: its free flights seldom end near the light", np.inf, ("baseline",))
 
 
 def light_through(medium: d.Medium, radiance: float = 1) -> d.SceneDescription:
@@ -361,7 +361,7 @@ def white_furnaces() -> list[Case]:
                 f"furnace of white fog, {depth:g} deep",
                 partial(furnace, grey(depth / 4), size=8 if 1e-3 < depth < 1e3 else 4),
                 1,
-                # At 1e-4 `report` scatters one path in 16 000, and that is what the rest of them lack.
+                # At 1e-4 `baseline` scatters one path in 16 000, and that is what the rest of them lack.
                 samples=1024 if depth < 1e-3 else 1,
                 within=0.1,
                 quick=depth == 1,

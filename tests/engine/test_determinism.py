@@ -14,7 +14,7 @@ from tests.engine.worlds import everything
 
 SAMPLES = 3  # three batches
 WIDTH, HEIGHT = 70, 66  # nine tiles at the least, since a tile is made of whole blocks of 32 pixels
-INTEGRATORS = ("path", "report")
+INTEGRATORS = ("path", "baseline")
 
 
 @cache
@@ -78,7 +78,7 @@ def test_seeds_differ(integrator: str) -> None:
 
 
 def test_integrators_differ() -> None:
-    assert (reference("path")["combined"] != reference("report")["combined"]).mean() > 0.9
+    assert (reference("path")["combined"] != reference("baseline")["combined"]).mean() > 0.9
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)

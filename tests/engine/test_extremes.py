@@ -40,7 +40,7 @@ def test_scale_of_one_axis(exponent: int, tmp_path: Path) -> None:
     assert left_out == (not -12 < exponent < 38)
 
 
-@pytest.mark.parametrize("integrator", ["path", "report"])
+@pytest.mark.parametrize("integrator", ["path", "baseline"])
 @pytest.mark.parametrize(
     ("key", "value"),
     [
@@ -58,7 +58,7 @@ def test_far_beyond(key: tuple[str | int, ...], value: Any, integrator: str, tmp
     assert "Assertion" not in done.stderr
 
 
-@pytest.mark.parametrize("integrator", ["path", "report"])
+@pytest.mark.parametrize("integrator", ["path", "baseline"])
 def test_a_few_spheres_alone(integrator: str, tmp_path: Path) -> None:
     """Up to eight are tried one by one, more stand in a BVH: the same bits."""
     materials = {

@@ -91,7 +91,7 @@ CASES = (
     Case("moons through a lens", moons(LENS, medium=HAZE).done(), "fog", MOONS),
     Case("one moon", moons(count=1, medium=HAZE).done(), "fog", MOONS),
     Case("moons on end", moons(medium=HAZE).done(), "fog", FULL, {"max_scatter": 3}),
-    Case("moons by the report's method", moons(medium=HAZE).done(), "fog", FULL, {"integrator": "report"}),
+    Case("moons by the baseline", moons(medium=HAZE).done(), "fog", FULL, {"integrator": "baseline"}),
     Case("eight moons", moons(count=8, medium=HAZE).done(), "fog", MOONS),
     Case("nine moons", moons(count=9, medium=HAZE).done(), "fog BVH", HAZY_FIELD),
     Case("a ball of metal", moons(medium=HAZE).sphere((1, 3, 1), 0.7, METAL).done(), "fog surfaces", HAZY_FIELD),

@@ -160,7 +160,7 @@ def test_command(sanitized: Callable[[str], None], tmp_path: Path) -> None:
     path = write_scene(tmp_path, scenes["every key"])
     pictures = [tmp_path / f"{i}.exr" for i in range(2)]
     for seed, picture in enumerate(pictures):
-        options = ("--spp", 4, "--seed", seed, "--integrator", "report", "--curve", tmp_path / f"c{seed}.png")
+        options = ("--spp", 4, "--seed", seed, "--integrator", "baseline", "--curve", tmp_path / f"c{seed}.png")
         done = run_glimmer(path, "-o", picture, *options)
         assert done.returncode == 0, done.stderr
     done = run_glimmer("merge", *pictures, "-o", tmp_path / "merged.exr")
@@ -178,7 +178,7 @@ def test_command(sanitized: Callable[[str], None], tmp_path: Path) -> None:
 @pytest.mark.parametrize("preset", ["asan", "tsan"])
 def test_command_for_long(preset: str, sanitized: Callable[[str], None], tmp_path: Path) -> None:
     sanitized(preset)
-    render_all(some_scenes(tmp_path), tmp_path, ("path", "report"))
+    render_all(some_scenes(tmp_path), tmp_path, ("path", "baseline"))
 
 
 RUNTIMES = {"asan": ("libasan.so", "libubsan.so"), "tsan": ("libtsan.so",)}

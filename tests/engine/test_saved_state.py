@@ -30,10 +30,10 @@ def test_faults_are_not_forgotten() -> None:
     """A shining mirror all around the camera, where a path leaves the range of float."""
     mirror = d.Mirror(grey(1), emission=grey(3e38))
     scene = Scene(Builder(camera((0, 0, 0), (0, 1, 0), 60), 1, 1).sphere((0, 0, 0), 1, mirror).done())
-    with Render(scene, samples=1, integrator="report") as render:
+    with Render(scene, samples=1, integrator="baseline") as render:
         before, saved = render.run().report(), render.save()
     assert before["invalid_samples"]["count"] == 1 and len(before["biased_by"]) == 1
-    with Render(scene, samples=1, integrator="report") as render:
+    with Render(scene, samples=1, integrator="baseline") as render:
         render.load(saved)
         after = render.run().report()
     assert after["invalid_samples"] == before["invalid_samples"] and after["biased_by"] == before["biased_by"]
@@ -88,6 +88,6 @@ def test_other_limits_are_another_picture(world: Scene, state: bytes, limit: str
 
 
 def test_the_report_names_the_kernel(world: Scene) -> None:
-    for integrator in ("path", "report"):
+    for integrator in ("path", "baseline"):
         with Render(world, samples=1, integrator=integrator) as render:
             assert render.run().report()["kernel"].split()[0] == integrator

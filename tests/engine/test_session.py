@@ -18,7 +18,7 @@ from tests.engine.library import Render, Scene, call, rendering
 from tests.engine.worlds import everything, heavy
 from tests.render.build import Builder, camera, grey
 
-INTEGRATORS = ("path", "report")
+INTEGRATORS = ("path", "baseline")
 ENDLESS = 1 << 40
 """Samples that no test waits for."""
 
@@ -199,7 +199,7 @@ def test_cancel_of_a_path_that_finds_no_end() -> None:
     """White walls and white fog: a single sample takes ten million vertices, and its light is outside."""
     room = Builder(camera((0, 0, 0), (0, 1, 0), 60), 1, 1, medium=d.Medium(grey(0), grey(1)))
     room.sphere((0, 0, 0), 1, d.Lambert(grey(1))).sphere((5, 0, 0), 1, d.Light(grey(1)))
-    with rendering(Scene(room.done()), samples=ENDLESS, integrator="report", threads=2) as render:
+    with rendering(Scene(room.done()), samples=ENDLESS, integrator="baseline", threads=2) as render:
         time.sleep(0.3)
         start = time.monotonic()
         render.cancel()
@@ -298,7 +298,7 @@ def test_error_limit() -> None:
     scene = Scene(room.sphere((0, 0, 0), 2, d.Light(grey(1))).sphere((0, 0.5, 0), 0.5, d.Lambert(grey(0.9))).done())
     samples = []
     for target in (0.02, 0.0005):
-        with Render(scene, integrator="report", target_error=target, samples=1 << 12, threads=2) as render:
+        with Render(scene, integrator="baseline", target_error=target, samples=1 << 12, threads=2) as render:
             progress = render.run().poll()
             assert progress.state == State.FINISHED
             assert progress.relmse_high <= target

@@ -155,7 +155,8 @@ def test_distances_follow_their_density(name: str) -> None:
     assert ((samples.t >= 0) & (samples.t <= np.float32(cut))).all()
     # Bins by its own quantiles, narrow in its tails; each integrated.
     tails = np.geomspace(1e-7, 1 / BINS, 100)
-    others = simd.equiangular_table(sigma, medium[3], segment, light, np.r_[tails, np.linspace(0, 1, BINS)[1:-1], 1 - tails]).t
+    quantiles = np.r_[tails, np.linspace(0, 1, BINS)[1:-1], 1 - tails]
+    others = simd.equiangular_table(sigma, medium[3], segment, light, quantiles).t
     between = (double(others) + double(np.nextafter(others, np.float32(np.inf)))) / 2  # samples are float32
     edges = np.unique(np.r_[0, between[between < np.float32(cut)], np.float32(cut)])
     nodes, weights = np.polynomial.legendre.leggauss(8)

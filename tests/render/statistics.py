@@ -30,7 +30,7 @@ LEVEL = 1e-3
 """Probability that a correct engine is rejected anywhere once, had the seeds not been fixed."""
 COMPARISONS = 3200
 """Numbers that may be compared in one run of all tests."""
-INTEGRATORS = ("path", "report")
+INTEGRATORS = ("path", "baseline")
 ROUNDING = 64 * 2.0**-24
 """Relative: what a few dozen float32 operations on the way of a sample, and its sum, may add to the error of a mean."""
 PILOT, FRESH = 1 << 40, 1 << 32

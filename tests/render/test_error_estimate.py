@@ -166,7 +166,7 @@ def test_heavy_tails_do_not_stop_a_render() -> None:
     scene = Scene(metal(0.02, False))
     went_on = 0
     for seed in range(12):
-        with Render(scene, integrator="report", seed=seed, samples=32, target_error=1e9, threads=1) as render:
+        with Render(scene, integrator="baseline", seed=seed, samples=32, target_error=1e9, threads=1) as render:
             progress = render.run().poll()
             tails = render.report()["error"]["tails"]
         assert progress.samples == 32 or not progress.heavy_tails

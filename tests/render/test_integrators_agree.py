@@ -223,10 +223,10 @@ SCENES: dict[str, Callable[[], Builder]] = {
 @pytest.mark.parametrize("name", SCENES)
 def test_both_integrators(name: str) -> None:
     scene = SCENES[name]().done()
-    path, report = (Pictures(Measurement(scene, integrator, samples=2)) for integrator in ("path", "report"))
+    path, baseline = (Pictures(Measurement(scene, integrator, samples=2)) for integrator in ("path", "baseline"))
     check_same(
         lambda seed: blocks(path(seed), 8),
-        lambda seed: blocks(report(seed), 8),
+        lambda seed: blocks(baseline(seed), 8),
         within={"light by way of metal": 0.065, "glints": 0.04}.get(name, 0.08),
         what=name,
     )
@@ -243,20 +243,20 @@ def all_estimators_at_work() -> Builder:
 SWITCHES = [
     "split",
     "all-lights",
-    "light-rays",
+    "emitter-rays",
     "branches",
     "guided-choice",
-    "lines",
-    "deep-lines",
+    "equiangular",
+    "deep-equiangular",
     "late-roulette",
-    "pixel-points",
+    "pixel-ris",
     "light-vertices",
 ]
 
 
 def test_switches_are_all_there() -> None:
     names = [name for name, _ in engine().integrators()]
-    assert names == ["path", "report", *(f"path-no-{switch}" for switch in SWITCHES)]
+    assert names == ["path", "baseline", *(f"path-no-{switch}" for switch in SWITCHES)]
 
 
 @pytest.mark.parametrize("switch", SWITCHES)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes shaded about other normals than their own: light paths carry the adjoint of what camera paths see.
 
-No closed form: shared light vertices (`path`) against paths from the camera alone (`report`), in fog, where what leaves
-a surface shows. The camera's way of shading is the definition: about the shading normal, but about the true one where
-the view is beneath its horizon; nothing of what a shading normal would send beneath the surface.
+No closed form: shared light vertices (`path`) against paths from the camera alone (`baseline`), in fog, where what
+leaves a surface shows. The camera's way of shading is the definition: about the shading normal, but about the true one
+where the view is beneath its horizon; nothing of what a shading normal would send beneath the surface.
 """
 
 from collections.abc import Callable
@@ -76,5 +76,5 @@ SCENES: dict[str, tuple[Callable[[], Builder], float]] = {
 def test_light_paths_are_adjoint_to_camera_paths(name: str) -> None:
     build, within = SCENES[name]
     scene = build().done()
-    path, report = (Pictures(Measurement(scene, integrator, samples=2)) for integrator in ("path", "report"))
-    check_same(lambda seed: blocks(path(seed), 8), lambda seed: blocks(report(seed), 8), within=within, what=name)
+    path, baseline = (Pictures(Measurement(scene, integrator, samples=2)) for integrator in ("path", "baseline"))
+    check_same(lambda seed: blocks(path(seed), 8), lambda seed: blocks(baseline(seed), 8), within=within, what=name)

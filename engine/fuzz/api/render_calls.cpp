@@ -10,7 +10,7 @@ namespace glimmer {
 void create_render(Input &in, Handles &handles, glimmer_scene *scene) {
     glimmer_render_desc desc;
     glimmer_render_init(&desc);
-    constexpr std::array<const char *, 4> integrators{"path", "report", "", "none"};
+    constexpr std::array<const char *, 5> integrators{"path", "baseline", "report", "", "none"};
     desc.integrator = in.PickValueInArray(integrators);
     desc.samples = in.ConsumeIntegralInRange<uint64_t>(0, 20); // a plan of adaptive sampling is made at 16
     desc.seconds = in.ConsumeBool() ? 0.01 : in.number();

@@ -6,15 +6,14 @@ using namespace glimmer;
 
 namespace {
 
-uint32_t find_integrator(const char *name) {
+uint32_t checked_integrator(const char *name) {
     if (!name || !*name)
         return 0;
+    if (const auto index = find_integrator(name))
+        return *index;
     std::string known;
-    for (uint32_t i = 0; i < kIntegrators.size(); ++i) {
-        if (std::string(name) == kIntegrators[i].name)
-            return i;
-        known += std::string(i ? ", " : "") + kIntegrators[i].name;
-    }
+    for (const auto &integrator : kIntegrators)
+        known += std::string(known.empty() ? "" : ", ") + integrator.name;
     fail_argument("integrator \"" + std::string(name) + "\" is not known; allowed: " + known);
 }
 
@@ -56,7 +55,9 @@ glimmer_result glimmer_render_create(glimmer_scene *scene, const glimmer_render_
         if (d.passes >> GLIMMER_PASS_COUNT)
             fail_argument("render: passes has bits above pass " + std::to_string(GLIMMER_PASS_COUNT - 1));
         RenderSettings settings;
-        settings.integrator = find_integrator(d.integrator);
+        settings.integrator = checked_integrator(d.integrator);
+        if (const std::string renamed = renamed_integrator(d.integrator ? d.integrator : ""); !renamed.empty())
+            settings.warnings.push_back(renamed);
         settings.samples = d.samples;
         settings.seconds = d.seconds;
         settings.target_error = d.target_error;

@@ -11,13 +11,13 @@ namespace {
 constexpr std::array kWithout{
     &EstimatorFlags::split,
     &EstimatorFlags::all_lights,
-    &EstimatorFlags::light_rays,
+    &EstimatorFlags::emitter_rays,
     &EstimatorFlags::branch,
     &EstimatorFlags::guided_choice,
-    &EstimatorFlags::segment_lights,
-    &EstimatorFlags::deep_segment_lights,
+    &EstimatorFlags::equiangular,
+    &EstimatorFlags::deep_equiangular,
     &EstimatorFlags::late_roulette,
-    &EstimatorFlags::pixel_points,
+    &EstimatorFlags::pixel_ris,
     &EstimatorFlags::light_vertices,
 };
 static_assert(kIntegrators.size() == 2 + kWithout.size());
@@ -32,6 +32,20 @@ EstimatorFlags flags_of(uint32_t index) {
 }
 
 } // namespace
+
+std::optional<uint32_t> find_integrator(std::string_view name) {
+    for (uint32_t i = 0; i < kIntegrators.size(); ++i)
+        if (name == kIntegrators[i].name || (kIntegrators[i].former_name && name == kIntegrators[i].former_name))
+            return i;
+    return std::nullopt;
+}
+
+std::string renamed_integrator(std::string_view name) {
+    const auto index = find_integrator(name);
+    if (!index || name == kIntegrators[*index].name)
+        return {};
+    return "integrator \"" + std::string(name) + "\" is now called \"" + kIntegrators[*index].name + "\"";
+}
 
 std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
                                                   bool full_kernel) {

@@ -9,25 +9,39 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace glimmer {
 
-/// The default, the baseline, and the default less one of its estimators each (path/estimator_flags.h).
+/// The default, the baseline, and the default less one of its estimators each (path/estimator_flags.h). The last member
+/// is the name that the integrator had before; it works for one more release.
 inline constexpr std::array<glimmer_integrator_info_t, 12> kIntegrators{{
-    {"path", "path tracing; fog by light vertices that all pixels share, the camera's segments of it light by light"},
-    {"report", "the student report's method, as a yardstick: one light, exponential free flights, balance heuristic"},
+    {"path", "path tracing; fog by light vertices that all pixels share, the camera's segments of it light by light",
+     nullptr},
+    {"baseline", "the method that Glimmer grew from: one light a place, exponential free flights, balance heuristic",
+     "report"},
     {"path-no-split",
-     "path, where it comes to free flights at all: direct segments of fog end in it or beyond, not both"},
-    {"path-no-all-lights", "path, but one light a place, not all"},
-    {"path-no-light-rays", "path, but no more camera rays where moons are seen"},
-    {"path-no-branches", "path, but one path goes on from the first surface"},
-    {"path-no-guided-choice", "path, but single lights are chosen all alike"},
-    {"path-no-lines", "path, but no light is sampled along direct segments of fog; so without light vertices"},
-    {"path-no-deep-lines", "path, but none along later segments either; so without light vertices"},
-    {"path-no-late-roulette", "path, but roulette by throughput from the start"},
-    {"path-no-pixel-points", "path, but one point of a pixel is lit where bevels glint"},
-    {"path-no-light-vertices", "path, but light scattered more than once comes from paths alone"},
+     "path, where it comes to free flights at all: direct segments of fog end in it or beyond, not both", nullptr},
+    {"path-no-all-lights", "path, but one light a place, not all", nullptr},
+    {"path-no-emitter-rays", "path, but no more camera rays where moons are seen", "path-no-light-rays"},
+    {"path-no-branches", "path, but one path goes on from the first surface", nullptr},
+    {"path-no-guided-choice", "path, but single lights are chosen all alike", nullptr},
+    {"path-no-equiangular", "path, but no light is sampled along direct segments of fog; so without light vertices",
+     "path-no-lines"},
+    {"path-no-deep-equiangular", "path, but none along later segments either; so without light vertices",
+     "path-no-deep-lines"},
+    {"path-no-late-roulette", "path, but roulette by throughput from the start", nullptr},
+    {"path-no-pixel-ris", "path, but one point of a pixel is lit where bevels glint", "path-no-pixel-points"},
+    {"path-no-light-vertices", "path, but light scattered more than once comes from paths alone", nullptr},
 }};
+
+/// The integrator of that name, present or former, as an index into kIntegrators.
+std::optional<uint32_t> find_integrator(std::string_view name);
+
+/// "integrator "report" is now called "baseline"" for a former name; empty for a present one.
+std::string renamed_integrator(std::string_view name);
 
 /// index: into kIntegrators. full_kernel: the code for all scenes, not what was compiled for scenes like this one; both
 /// give the same bits.

@@ -121,6 +121,8 @@ std::string report_json(const ReportInput &in) {
             {{"fewest", std::to_string((*in.samples_taken)[0])}, {"most", std::to_string((*in.samples_taken)[1])}});
     std::vector<std::string> left_out = in.integrator.left_out();
     left_out.insert(left_out.end(), in.scene.left_out.begin(), in.scene.left_out.end());
+    std::vector<std::string> warnings = in.settings.warnings;
+    warnings.insert(warnings.end(), in.scene.warnings.begin(), in.scene.warnings.end());
     return object({
         {"engine", quoted(GLIMMER_VERSION)},
         {"integrator", quoted(kIntegrators[in.settings.integrator].name)},
@@ -143,7 +145,7 @@ std::string report_json(const ReportInput &in) {
         {"biased_by", list(biased_by(in.settings, in.faults))},
         {"kernel", quoted(in.integrator.kernel())},
         {"left_out", list(left_out)},
-        {"warnings", list(in.scene.warnings)},
+        {"warnings", list(warnings)},
     });
 }
 

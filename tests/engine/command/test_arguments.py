@@ -86,6 +86,6 @@ def test_information() -> None:
     assert "PICTURE A.exr B.exr ..." in run_glimmer("merge", "--help").stdout
     integrators = run_glimmer("--list-integrators").stdout.splitlines()
     names = [line.split()[0] for line in integrators]
-    assert names[:2] == ["path", "report"] and all(name.startswith("path-no-") for name in names[2:])
+    assert names[:2] == ["path", "baseline"] and all(name.startswith("path-no-") for name in names[2:])
     aovs = run_glimmer("--list-aovs").stdout.splitlines()
     assert [line.split()[0] for line in aovs] == list(AOV_CHANNELS)

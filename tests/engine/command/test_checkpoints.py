@@ -114,4 +114,4 @@ def test_bad_checkpoints(tmp_path: Path) -> None:
     assert refused(path, good[:-9] + bytes([good[-9] ^ 1]) + good[-8:]).startswith("is damaged")
     assert refused(write_scene(tmp_path, furnace(), "b.json"), good).startswith("is a checkpoint of another scene")
     assert "seed" in refused(path, good, "--seed", 1)
-    assert "integrator" in refused(path, good, "--integrator", "report")
+    assert "integrator" in refused(path, good, "--integrator", "baseline")

@@ -13,7 +13,7 @@ from tests.engine.scenes import furnace, hazy_moon, read_exr, render, run_glimme
 pytestmark = pytest.mark.usefixtures("glimmer_command")
 
 
-@pytest.mark.parametrize("integrator", ["path", "report"])
+@pytest.mark.parametrize("integrator", ["path", "baseline"])
 def test_threads_and_tiles_change_no_bit(integrator: str, tmp_path: Path) -> None:
     aovs = "albedo,normal,depth,fog,direct,indirect,emission,material_index"
     common = ["--spp", 5, "--aov", aovs, "--integrator", integrator]
@@ -31,8 +31,38 @@ def test_seeds_give_other_pictures(tmp_path: Path) -> None:
 def test_integrators_are_named(tmp_path: Path) -> None:
     path = render(tmp_path, hazy_moon(), "--spp", 2, "--integrator", "path", name="path")
     assert same_bits(path, render(tmp_path, hazy_moon(), "--spp", 2)), "path is the default"
-    report = render(tmp_path, hazy_moon(), "--spp", 2, "--integrator", "report", name="report")
-    assert report.attributes["glimmer:integrator"] == "report" and not np.array_equal(path.rgb, report.rgb)
+    baseline = render(tmp_path, hazy_moon(), "--spp", 2, "--integrator", "baseline", name="baseline")
+    assert baseline.attributes["glimmer:integrator"] == "baseline" and not np.array_equal(path.rgb, baseline.rgb)
+
+
+FORMER_NAMES = {
+    "report": "baseline",
+    "path-no-light-rays": "path-no-emitter-rays",
+    "path-no-lines": "path-no-equiangular",
+    "path-no-deep-lines": "path-no-deep-equiangular",
+    "path-no-pixel-points": "path-no-pixel-ris",
+}
+
+
+@pytest.mark.parametrize("former", FORMER_NAMES)
+def test_former_names_of_integrators_work_and_say_so_once(former: str, tmp_path: Path) -> None:
+    present = FORMER_NAMES[former]
+    expected = render(tmp_path, hazy_moon(), "--spp", 1, "--integrator", present, name="present")
+    scene, output, report = tmp_path / "present.json", tmp_path / "former.exr", tmp_path / "r.json"
+    done = run_glimmer(scene, "-o", output, "--spp", 1, "--integrator", former, "--report", report)
+    assert done.returncode == 0 and done.stderr.count("is now called") == 1
+    assert f'--integrator: warning: "{former}" is now called "{present}"\n' in done.stderr
+    picture, told = read_exr(output), json.loads(report.read_text())
+    assert same_bits(expected, picture) and picture.attributes["glimmer:integrator"] == present
+    assert told["integrator"] == present
+    assert told["warnings"] == [f'integrator "{former}" is now called "{present}"']
+
+
+def test_present_names_of_integrators_need_no_word(tmp_path: Path) -> None:
+    scene = write_scene(tmp_path, hazy_moon())
+    report = tmp_path / "r.json"
+    done = run_glimmer(scene, "-o", tmp_path / "o.exr", "--spp", 1, "--integrator", "baseline", "--report", report)
+    assert done.returncode == 0 and "now called" not in done.stderr and json.loads(report.read_text())["warnings"] == []
 
 
 def test_default_is_64_samples(tmp_path: Path) -> None:

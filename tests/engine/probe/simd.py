@@ -33,9 +33,7 @@ def connect(wide: bool, medium: ArrayLike, vertices: ArrayLike, point: ArrayLike
     return Connections(means, sums)
 
 
-def pick_targets(
-    wide: bool, medium: ArrayLike, vertices: ArrayLike, points: ArrayLike, clamp_distance: float
-) -> Array:
+def pick_targets(wide: bool, medium: ArrayLike, vertices: ArrayLike, points: ArrayLike, clamp_distance: float) -> Array:
     """points (m, 6); returns targets (n)."""
     v, p = f32(vertices), f32(points)
     n = v.shape[1]
@@ -59,13 +57,15 @@ class DistanceSamples(NamedTuple):
     pdf: Array
 
 
-def equiangular_table(sigma: ArrayLike, g: float, segment: ArrayLike, light: ArrayLike, u: ArrayLike) -> DistanceSamples:
+def equiangular_table(
+    sigma: ArrayLike, g: float, segment: ArrayLike, light: ArrayLike, u: ArrayLike
+) -> DistanceSamples:
     """sigma (2, 3): absorption, scattering. segment (7): origin, direction, end. light (4): centre, radius."""
     numbers = f32(u)
     t, pdf = empty(len(numbers)), empty(len(numbers))
     call(
-        *("probe_equiangular_table", f32(sigma), np.float32(g), f32(segment), f32(light), numbers, np.uint64(len(numbers))),
-        *(t, pdf),
+        *("probe_equiangular_table", f32(sigma), np.float32(g), f32(segment), f32(light)),
+        *(numbers, np.uint64(len(numbers)), t, pdf),
     )
     return DistanceSamples(t, pdf)
 
@@ -74,6 +74,7 @@ def equiangular_pdf(sigma: ArrayLike, g: float, segment: ArrayLike, light: Array
     at = f32(t)
     pdf = empty(len(at))
     call(
-        *("probe_equiangular_table_pdf", f32(sigma), np.float32(g), f32(segment), f32(light), at, np.uint64(len(at)), pdf),
+        *("probe_equiangular_table_pdf", f32(sigma), np.float32(g), f32(segment), f32(light)),
+        *(at, np.uint64(len(at)), pdf),
     )
     return pdf

@@ -13,19 +13,19 @@ struct EstimatorFlags {
     /// camera sees; else one light at each place.
     bool all_lights = true;
     /// More camera rays in pixels where emissive spheres are seen. (emitter_rays.h)
-    bool light_rays = true;
+    bool emitter_rays = true;
     /// Several paths go on from the first surface; else one. (splitting_plan.h)
     bool branch = true;
     /// Where one light is sampled it is chosen by a bound on what it could bring; else uniformly.
     bool guided_choice = true;
     /// On segments that the camera sees, light is sampled along the segment; else at the point where the path scatters.
-    bool segment_lights = true;
+    bool equiangular = true;
     /// The same for all later segments.
-    bool deep_segment_lights = true;
+    bool deep_equiangular = true;
     /// Roulette spares paths until little is left of them; else it starts at once. (roulette.h)
     bool late_roulette = true;
     /// Where bevels glint, several points of a pixel compete for being lit; else one is lit. (pixel_ris.inl)
-    bool pixel_points = true;
+    bool pixel_ris = true;
     /// Light that was scattered before reaches the medium by light vertices; else by the paths alone. (../vpl)
     bool light_vertices = true;
 

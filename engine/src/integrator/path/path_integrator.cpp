@@ -16,8 +16,8 @@ class PathIntegrator final : public Integrator {
         : scene_(scene), limits_(limits), flags_(flags),
           around_camera_(dielectrics_at(scene, scene.camera.start_region().center)),
           emitter_rays_(scene,
-                        around_camera_.empty() && !rays_start_apart() ? tuning::kEmitterRays * flags.light_rays : 0) {
-        if (flags_.light_vertices && flags_.segment_lights && flags_.deep_segment_lights)
+                        around_camera_.empty() && !rays_start_apart() ? tuning::kEmitterRays * flags.emitter_rays : 0) {
+        if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
             light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_);
         plan_ = plan_splitting(scene, flags);
         plan_.pixel_ris = plan_.pixel_ris && around_camera_.empty() && !rays_start_apart() && limits.depth > 0;
@@ -56,14 +56,14 @@ class PathIntegrator final : public Integrator {
     }
 
     std::string kernel() const override {
-        const std::string name = flags_ == kBaselineFlags ? "report"
+        const std::string name = flags_ == kBaselineFlags ? "baseline"
                                  : light_vertices_        ? "path with shared light vertices"
                                                           : "path";
         return name + " (compiled for " + kernel_->name + ")";
     }
     std::vector<std::string> left_out() const override {
         std::vector<std::string> lines = glimmer::left_out(needed_);
-        if (needed_.surfaces && flags_.pixel_points && !plan_.pixel_ris)
+        if (needed_.surfaces && flags_.pixel_ris && !plan_.pixel_ris)
             lines.emplace_back("no surfaces that glint: one point of a pixel is lit, not one of several");
         return lines;
     }

@@ -135,7 +135,7 @@ class PathSample {
 
     /// Whether light is sampled along this segment, or else at the point where the path scatters on it.
     bool samples_lights_along(const State &state) const {
-        return state.seen_directly() ? flags().segment_lights : flags().deep_segment_lights;
+        return state.seen_directly() ? flags().equiangular : flags().deep_equiangular;
     }
     bool every_light(bool several) const {
         return several && flags().all_lights && scene().lights.size() <= tuning::kMaxLightsSampledEach;

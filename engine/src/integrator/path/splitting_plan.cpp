@@ -48,11 +48,11 @@ double pixel_contrast(const Scene &scene) {
 SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &flags) {
     const bool medium = scene.medium && scene.medium->scatters();
     const bool glints =
-        (flags.pixel_points || (flags.branch && !medium)) && pixel_contrast(scene) > tuning::kContrastOfGlints;
+        (flags.pixel_ris || (flags.branch && !medium)) && pixel_contrast(scene) > tuning::kContrastOfGlints;
     return {!flags.branch      ? 1
             : medium || glints ? tuning::kBranchesWhereVaried
                                : tuning::kBranchesElsewhere,
-            flags.pixel_points && glints};
+            flags.pixel_ris && glints};
 }
 
 } // namespace glimmer
