@@ -16,7 +16,7 @@ inline SceneDescription empty_scene() {
     return scene;
 }
 
-/// One more sphere that shines, of a colour of its own. hue: an angle.
+/// Adds an emissive sphere of a colour of its own. hue: an angle, radians.
 inline void add_moon(SceneDescription &scene, float hue, const Vec3d &center, double radius) {
     MaterialDescription light;
     light.type = MaterialType::light;

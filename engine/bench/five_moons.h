@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Five moons and nothing but medium.
+// A scene of five emissive spheres in a medium, and nothing else.
 #pragma once
 
 #include "empty_scene.h"
