@@ -76,13 +76,13 @@ def test_the_scene_formats_table_is_the_engines(repository: Path, library_dir: P
     section = text[text.index("**materials**") : text.index("**meshes**")]
     rows = {kind: row for kind, row in re.findall(r"^\| `(\w+)` \| (.*) \|$", section, re.MULTILINE) if kind != "type"}
     assert set(rows) == set(table)
-    common = section[section.rindex("|") :]
     with_emission = {kind for kind, parameters in table.items() if "emission" in parameters}
-    listed = re.search(r"is allowed on ([\w,\s]+?)\.", common)
+    listed = re.search(r"is allowed on (all but )?([\w,\s]+?)\.", section[section.rindex("|") :])
     assert listed is not None
-    assert set(re.split(r",\s+|\s+and\s+", listed[1])) == with_emission
+    named = set(re.split(r",\s+|\s+and\s+", listed[2]))
+    assert (set(table) - named if listed[1] else named) == with_emission
     for kind, parameters in table.items():
-        keys = set(re.findall(r"`(\w+)`", rows[kind]))
+        keys = set(re.findall(r"`(\w+)`", rows[kind])) - set(table) - {"true", "false"}
         words = {word for row in parameters.values() for word in row.words}
         assert keys == (set(parameters) - {"emission"}) | words, kind
 

@@ -124,11 +124,11 @@ BAD = [
         "metall",
         'materials.plate.b: "metall" is not a material; materials are "plate", "metal",',
     ),
-    Bad(("materials", "plate", "b"), "moon", "materials.plate.b: neither part of a mix may be light, glass or null"),
+    Bad(("materials", "plate", "b"), "moon", "materials.plate.b: neither part of a mix may be glass, light or null"),
     Bad(
         ("materials", "plate", "a"),
         {"type": "glass", "ior": 1},
-        "materials.plate.a: neither part of a mix may be light, glass or null",
+        "materials.plate.a: neither part of a mix may be glass, light or null",
     ),
     Bad(("materials", "plate", "b"), "plate", 'materials.plate.b: a mix is a part of itself: "plate" -> "plate"'),
     Bad(
