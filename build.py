@@ -205,7 +205,6 @@ PACKAGES = (
     Package("libtinyobjloader-dev", "build", ".obj meshes"),
     Package("libcli11-dev", "build", "options of the command line"),
     Package("libxxhash-dev", "build", "hashes of scenes"),
-    Package("fonts-dejavu-core", "build", "labels of the command line's plots"),
     Package("blender", "render", "the host"),
     Package("python3-numpy", "render", "Debian's Blender does not bring it"),
     Package("python3-venv", "test", "virtual environments of the tests"),

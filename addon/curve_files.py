@@ -12,8 +12,9 @@ from bpy.app.handlers import persistent
 
 from . import reports
 from .failure import written_files
-from .film.curve import plot, points_of, table
 from .film.png import write_png
+from .native import error_curve
+from .native.library import load
 
 _log = logging.getLogger(__name__)
 
@@ -30,10 +31,9 @@ def write(picture: Path) -> list[Path]:
     written: list[Path] = []
     found = reports.layers()
     for stem, report in zip(stems(picture, list(found)), found.values(), strict=True):
-        points = points_of(report)
         files = stem.with_name(f"{stem.name}.csv"), stem.with_name(f"{stem.name}.png")
-        files[0].write_text(table(points))
-        write_png(plot(points), files[1])
+        files[0].write_text(error_curve.table(load(), report))
+        write_png(error_curve.plot(load(), report), files[1])
         written += files
     return written
 

@@ -62,6 +62,11 @@ _SIGNATURES: dict[str, tuple[object, list[object]]] = {
         [c_void_p, c_int, c_uint32, c_uint32, c_uint32, c_uint32, c_void_p, c_size_t],
     ),
     "glimmer_render_report": (_RESULT, [c_void_p, POINTER(c_char_p)]),
+    "glimmer_error_curve_table": (_RESULT, [POINTER(structs.CurvePoint), c_size_t, POINTER(c_char_p)]),
+    "glimmer_plot_error_curve": (
+        _RESULT,
+        [POINTER(structs.CurvePoint), c_size_t, POINTER(structs.PlotDesc), c_void_p, c_size_t],
+    ),
 }
 
 

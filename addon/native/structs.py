@@ -245,6 +245,29 @@ class IntegratorInfo(ctypes.Structure):
     _fields_ = [("name", c_char_p), ("help", c_char_p), ("former_name", c_char_p)]
 
 
+class CurvePoint(ctypes.Structure):
+    _fields_ = [
+        ("seconds", c_double),
+        ("cpu_seconds", c_double),
+        ("samples", c_double),
+        ("relmse", c_double),
+        ("relmse_low", c_double),
+        ("relmse_high", c_double),
+    ]
+
+
+class PlotDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("background", c_float * 3),
+        ("text", c_float * 3),
+        ("line", c_float * 3),
+        ("guide", c_float * 3),
+    ]
+
+
 # Each description and the function of the library that fills it and says how large the library believes it to be.
 INITIALISERS: dict[str, type[ctypes.Structure]] = {
     "glimmer_mesh_init": MeshDesc,
@@ -256,4 +279,5 @@ INITIALISERS: dict[str, type[ctypes.Structure]] = {
     "glimmer_film_init": FilmDesc,
     "glimmer_render_init": RenderDesc,
     "glimmer_progress_init": ProgressDesc,
+    "glimmer_plot_init": PlotDesc,
 }

@@ -8,7 +8,8 @@ import bpy.utils.previews
 import numpy as np
 
 from .. import reports
-from ..film.curve import plot, points_of
+from ..native import error_curve
+from ..native.library import load
 from .panel import GlimmerPanel
 
 SIDE = 320  # pixels of the plot
@@ -17,6 +18,14 @@ LOOK_SECONDS = 0.5
 
 _previews: dict[str, Any] = {}
 _shown = {"news": -1, "redrawn": -1}
+
+
+def _colors() -> error_curve.PlotColors:
+    """The panel's, and that of what is selected for the line, in Blender's theme."""
+    theme = bpy.context.preferences.themes[0]
+    space = theme.properties.space
+    selected = theme.user_interface.wcol_regular.inner_sel
+    return error_curve.PlotColors(tuple(space.back)[:3], tuple(space.text)[:3], tuple(selected)[:3])
 
 
 def _icon(report: dict[str, Any]) -> int:
@@ -28,7 +37,7 @@ def _icon(report: dict[str, Any]) -> int:
     if _shown["news"] != reports.news():
         _shown["news"] = reports.news()
         pixels = np.ones((SIDE, SIDE, 4), np.float32)
-        pixels[..., :3] = plot(points_of(report), SIDE, SIDE)[::-1] / np.float32(255.0)
+        pixels[..., :3] = error_curve.plot(load(), report, (SIDE, SIDE), _colors())[::-1] / np.float32(255.0)
         preview.image_size = (SIDE, SIDE)
         preview.image_pixels_float.foreach_set(pixels.reshape(-1))
     return int(preview.icon_id)
@@ -44,7 +53,7 @@ class GLIMMER_PT_error(GlimmerPanel, bpy.types.Panel):
         if "spp" in report:
             for line in reports.error_summary(report):
                 column.label(text=line)
-            if points_of(report):
+            if error_curve.has_points(report):
                 self.layout.template_icon(icon_value=_icon(report), scale=SCALE)
         else:
             column.label(text="Nothing rendered yet")

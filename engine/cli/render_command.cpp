@@ -136,10 +136,8 @@ void write_results(const RenderOptions &options, const LoadedScene &scene, glimm
     // The picture last: where it stands, all is there.
     if (options.report)
         write_file(*options.report, report.dump(2) + "\n");
-    if (options.curve) {
-        const Report error = report.value("error", Report());
-        write_curve(curve_of(report), error.is_object() ? error.value("confidence", 0.95) : 0.95, *options.curve);
-    }
+    if (options.curve)
+        write_curve(curve_of(report), *options.curve);
     write_picture(picture, options.output);
 }
 
@@ -164,7 +162,7 @@ int run_render(const RenderOptions &options) {
         line.say("--integrator: warning: " + in_quotes(options.integrator) + " is now called " + in_quotes(present));
     expect_writable(options.output);
     if (options.curve)
-        expect_plottable(*options.curve);
+        expect_writable(*options.curve);
     if (options.checkpoint && load_checkpoint(*options.checkpoint, scene.hash, render.get()))
         line.say(options.checkpoint->string() + ": going on from " + std::to_string(poll(render.get()).samples) +
                  " spp");

@@ -9,7 +9,7 @@ namespace {
 
 /// One of them.
 void call(Input &in, Handles &handles, std::string &state) {
-    switch (in.ConsumeIntegralInRange<int>(0, 20)) {
+    switch (in.ConsumeIntegralInRange<int>(0, 21)) {
     case 0:
         return create_mesh(in, handles);
     case 1:
@@ -48,6 +48,8 @@ void call(Input &in, Handles &handles, std::string &state) {
         return report(handles.any(handles.renders));
     case 19:
         return control(in, handles.any(handles.renders));
+    case 20:
+        return draw_error_curve(in);
     default:
         break;
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Image files, and text on images, as an interface of plain values. libglimmer_image.so implements it with OpenImageIO,
+// Image files as an interface of plain values. libglimmer_image.so implements it with OpenImageIO,
 // which brings some 250 shared libraries along: the command opens it for the first image (cli/image_library.h).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -39,15 +38,6 @@ class ImageReader {
     virtual std::vector<float> read(int channels) = 0;
 };
 
-/// How text looks.
-struct TextStyle {
-    enum class Align { Left, Center, Right };
-    std::string font;
-    int size = 12;                 ///< height in pixels
-    std::array<float, 3> colour{}; ///< sRGB, 0 to 1
-    Align align = Align::Left;
-};
-
 class ImageIo {
   public:
     virtual ~ImageIo() = default;
@@ -63,16 +53,10 @@ class ImageIo {
     /// Undoes the transfer curve of a colour space as ImageHeader names it; an unnamed one is taken as linear. False:
     /// the space is not known, and the values are as they were.
     virtual bool to_linear(const std::string &color_space, std::vector<float> &values) const = 0;
-
-    virtual bool has_font(const std::string &name) const = 0;
-
-    /// Draws on pixels of shape (height, width, 3): x is where the text is aligned, y its baseline.
-    virtual void draw_text(std::vector<float> &pixels, int width, int height, int x, int y, const std::string &text,
-                           const TextStyle &style) const = 0;
 };
 
 /// To be raised with every change of this file: a command refuses the library of another build.
-constexpr uint32_t kImageIoVersion = 1;
+constexpr uint32_t kImageIoVersion = 2;
 
 /// The library's one function, "glimmer_image_io"; null for another version than its own. What it gives lives for ever.
 using ImageIoEntry = const ImageIo *(*)(uint32_t version);

@@ -4,8 +4,6 @@
 
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
@@ -120,21 +118,6 @@ class Oiio : public ImageIo {
             return apply([](float value) { return OIIO::Rec709_to_linear(value); });
         const float gamma = gamma_of(color_space);
         return gamma > 0 && apply([gamma](float value) { return std::pow(std::max(value, 0.0f), gamma); });
-    }
-
-    bool has_font(const std::string &name) const override {
-        return OIIO::ImageBufAlgo::text_size("0", 12, name).defined();
-    }
-
-    void draw_text(std::vector<float> &pixels, int width, int height, int x, int y, const std::string &text,
-                   const TextStyle &style) const override {
-        using OIIO::ImageBufAlgo::TextAlignX;
-        using Align = TextStyle::Align;
-        const TextAlignX align = style.align == Align::Left     ? TextAlignX::Left
-                                 : style.align == Align::Center ? TextAlignX::Center
-                                                                : TextAlignX::Right;
-        OIIO::ImageBuf image(OIIO::ImageSpec(width, height, 3, OIIO::TypeFloat), pixels.data());
-        OIIO::ImageBufAlgo::render_text(image, x, y, text, style.size, style.font, style.colour, align);
     }
 };
 

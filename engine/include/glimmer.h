@@ -395,6 +395,33 @@ GLIMMER_API glimmer_result glimmer_render_save(glimmer_render *render, const voi
 /* Before glimmer_render_start. */
 GLIMMER_API glimmer_result glimmer_render_load(glimmer_render *render, const void *data, size_t size);
 
+/* ---- The curve of the error ----------------------------------------------------------------------------------- */
+
+/* A point of the report's "curve": the error of the picture at one moment of its render. */
+typedef struct glimmer_curve_point {
+    double seconds, cpu_seconds;
+    double samples;                         /* per pixel */
+    double relmse, relmse_low, relmse_high; /* NaN when not known */
+} glimmer_curve_point;
+
+/* CSV: a line of names and a line for each point, what is not known left empty. *table is valid until the next call of
+ * this function on this thread. */
+GLIMMER_API glimmer_result glimmer_error_curve_table(const glimmer_curve_point *points, size_t count,
+                                                     const char **table);
+
+typedef struct glimmer_plot_desc {
+    size_t struct_size;
+    uint32_t width, height; /* pixels, 200 to 8192 each; default 960 x 600. From a width of 600 on with a legend */
+    float background[3], text[3], line[3], guide[3]; /* sRGB, 0 to 1. Default: on white */
+} glimmer_plot_desc;
+
+GLIMMER_API void glimmer_plot_init(glimmer_plot_desc *desc);
+/* relMSE against seconds, both axes logarithmic: the interval is a band, and the guide falls from the last point as
+ * 1/time does. Points whose error is not known are left out; without any, the plot says so. rgb: (height, width, 3)
+ * bytes, top row first, byte_count in all, which is checked. */
+GLIMMER_API glimmer_result glimmer_plot_error_curve(const glimmer_curve_point *points, size_t count,
+                                                    const glimmer_plot_desc *desc, uint8_t *rgb, size_t byte_count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -5,24 +5,14 @@
 #include "report.h"
 
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 namespace glimmer {
 
-/// The picture's error at one moment of the render.
-struct CurvePoint {
-    double seconds, cpu_seconds, spp, relmse;
-    std::optional<double> low, high; ///< the interval of relmse
-};
-
 /// The points of the report whose error is known.
-std::vector<CurvePoint> curve_of(const Report &report);
+std::vector<glimmer_curve_point> curve_of(const Report &report);
 
 /// A .csv with a line of names, or a .png plot. Throws ResultError.
-void write_curve(const std::vector<CurvePoint> &curve, double confidence, const std::filesystem::path &path);
-
-/// Throws InputError where a plot could not be labelled: found out before the render rather than after it.
-void expect_plottable(const std::filesystem::path &path);
+void write_curve(const std::vector<glimmer_curve_point> &curve, const std::filesystem::path &path);
 
 } // namespace glimmer

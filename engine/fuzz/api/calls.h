@@ -31,4 +31,7 @@ void load(Input &in, glimmer_render *render, const std::string &saved);
 void control(Input &in, glimmer_render *render);
 void report(glimmer_render *render);
 
+// The table and the plot of a curve.
+void draw_error_curve(Input &in);
+
 } // namespace glimmer

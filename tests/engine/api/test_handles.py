@@ -137,6 +137,7 @@ def test_struct_size(struct: type[ctypes.Structure], scene: c_void_p) -> None:
         "CameraDesc": lambda p: library.glimmer_scene_set_camera(scene, p),
         "FilmDesc": lambda p: library.glimmer_scene_set_film(scene, p),
         "RenderDesc": lambda p: library.glimmer_render_create(committed().handle, p, byref(out)),
+        "PlotDesc": lambda p: library.glimmer_plot_error_curve(None, 0, p, None, 0),
     }
     if struct is structs.ProgressDesc:
         with Render(committed(), samples=1) as render:
