@@ -90,7 +90,8 @@ CASES = (
     Case("moons without fog", moons().done(), "", MOONS),
     Case("moons through a lens", moons(LENS, medium=HAZE).done(), "fog", MOONS),
     Case("one moon", moons(count=1, medium=HAZE).done(), "fog", MOONS),
-    Case("moons on end", moons(medium=HAZE).done(), "fog", FULL, {"max_scatter": 3}),
+    Case("moons on end", moons(medium=HAZE).done(), "fog", MOONS, {"max_scatter": 3}),
+    Case("moons and direct light", moons(medium=HAZE).done(), "fog", FULL, {"max_depth": 1}),
     Case("moons by the baseline", moons(medium=HAZE).done(), "fog", FULL, {"integrator": "baseline"}),
     Case("eight moons", moons(count=8, medium=HAZE).done(), "fog", MOONS),
     Case("nine moons", moons(count=9, medium=HAZE).done(), "fog BVH", HAZY_FIELD),
@@ -136,7 +137,7 @@ CASES = (
     Case("hazy field of mirrors", plates(d.Mirror(grey(0.9)), medium=HAZE).done(), "fog surfaces BVH", HAZY_FIELD),
     Case("field in absorbing fog", plates(medium=fog(grey(0))).done(), "fog surfaces BVH", HAZY_FIELD),
     Case("hazy field and a lamp", plates(medium=HAZE).lamp(BALL_LAMP).done(), "fog surfaces BVH lights", FULL),
-    Case("hazy field on end", plates(medium=HAZE).done(), "fog surfaces BVH", FULL, {"max_depth": 5}),
+    Case("hazy field on end", plates(medium=HAZE).done(), "fog surfaces BVH", HAZY_FIELD, {"max_depth": 5}),
     Case("all there is", everything(48, 36), "fog surfaces BVH glass lights", FULL),
 )
 

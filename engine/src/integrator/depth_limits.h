@@ -11,6 +11,8 @@ namespace glimmer {
 struct DepthLimits {
     uint32_t depth = std::numeric_limits<uint32_t>::max();   ///< vertices on surfaces and in the medium
     uint32_t scatter = std::numeric_limits<uint32_t>::max(); ///< vertices in the medium alone
+
+    bool operator==(const DepthLimits &) const = default;
 };
 
 } // namespace glimmer

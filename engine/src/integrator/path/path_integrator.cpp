@@ -21,17 +21,17 @@ class PathIntegrator final : public Integrator {
             light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_);
         plan_ = plan_splitting(scene, flags);
         plan_.pixel_ris = plan_.pixel_ris && around_camera_.empty() && !rays_start_apart() && limits.depth > 0;
-        needed_ = needed_by(scene, flags, light_vertices_ != nullptr);
+        needed_ = needed_by(scene, flags, light_vertices_.cache != nullptr);
         kernel_ = &path_kernel(full_kernel ? kAllFeatures : needed_);
     }
 
-    bool shares() const override { return light_vertices_ != nullptr; }
+    bool shares() const override { return light_vertices_.cache != nullptr; }
     std::unique_ptr<const WaveData> prepare_wave(uint64_t seed, uint64_t sample, TraceContext &trace) const override {
-        return light_vertices_->prepare_wave(seed, sample, trace);
+        return light_vertices_.cache->prepare_wave(seed, sample, trace);
     }
     std::unique_ptr<const BlockData> prepare_block(const WaveData &wave, const Rectangle &pixels,
                                                    TraceContext &trace) const override {
-        return light_vertices_->prepare_block(wave, pixels, trace);
+        return light_vertices_.cache->prepare_block(wave, pixels, trace);
     }
 
     FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
@@ -57,7 +57,7 @@ class PathIntegrator final : public Integrator {
 
     std::string kernel() const override {
         const std::string name = flags_ == kBaselineFlags ? "baseline"
-                                 : light_vertices_        ? "path with shared light vertices"
+                                 : light_vertices_.cache  ? "path with shared light vertices"
                                                           : "path";
         return name + " (compiled for " + kernel_->name + ")";
     }
@@ -65,6 +65,8 @@ class PathIntegrator final : public Integrator {
         std::vector<std::string> lines = glimmer::left_out(needed_);
         if (needed_.surfaces && flags_.pixel_ris && !plan_.pixel_ris)
             lines.emplace_back("no surfaces that glint: one point of a pixel is lit, not one of several");
+        if (!light_vertices_.left_out.empty())
+            lines.push_back(light_vertices_.left_out);
         return lines;
     }
 
@@ -77,7 +79,7 @@ class PathIntegrator final : public Integrator {
     EstimatorFlags flags_;
     InteriorStack around_camera_;
     EmitterRays emitter_rays_;
-    std::unique_ptr<const LightVertexCache> light_vertices_;
+    LightVertexPlan light_vertices_;
     SplittingPlan plan_;
     KernelFeatures needed_;
     const PathKernel *kernel_ = nullptr;

@@ -34,13 +34,17 @@ void PathSample<F>::gather_along(const State &state, float end, const Medium &me
 
 template <KernelFeatures F>
 bool PathSample<F>::gather(State &state, float points, float t, float roulette_scale) {
+    if (context_.limits.depth - state.depth <
+        2) // the depth limit leaves no room for a vertex between here and the light
+        return false;
     const Vec3f x = state.ray.origin;
     state.rr_scale /= points;
     if (!survives(state, x, roulette_scale))
         return false;
     state.rr_scale *= points;
+    const DepthLimits room{context_.limits.depth - state.depth - 1, context_.limits.scatter - state.scatter - 1};
     aov_of_scattering(state, PathClass::medium) +=
-        state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, sampler_, trace_);
+        state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, room, sampler_, trace_);
     const VplSettings &settings = context_.light_vertices->settings;
     const float u = sampler_.next_1d(); // P(k d0 > d) = 1 - w(d), equation (3)
     const float k =
@@ -76,7 +80,9 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
     const std::optional<Hit> hit = intersect(state.ray);
     const float end = hit ? hit->t : reach;
     state.ray.t_max = kInfinity;
-    const FreeFlight flight = medium.sample_free_flight(state.ray, state.beta, end, sampler_);
+    const FreeFlight flight = state.scatter < context_.limits.scatter
+                                  ? medium.sample_free_flight(state.ray, state.beta, end, sampler_)
+                                  : FreeFlight{end, false, medium.transmittance(state.ray, end), 1};
     state.beta *= flight.weight;
     if (flight.scattered) {
         if (flight.t > medium_compensation_radius)

@@ -80,6 +80,8 @@ BlockVertices::BlockVertices(const Scene &scene, const LightVertices &vertices, 
     : scene_(scene), settings_(settings) {
     pick_medium(vertices.medium, points, sampler);
     pick_surface(vertices.surface, points, sampler);
+    for (const VertexDepth &v : medium_.depth)
+        deepest_ = {std::max(deepest_.depth, v.depth), std::max(deepest_.scatter, v.scatter)};
 }
 
 void BlockVertices::pick_medium(const MediumVertices &vertices, const std::vector<Vec3f> &points, Sampler &sampler) {
@@ -88,6 +90,7 @@ void BlockVertices::pick_medium(const MediumVertices &vertices, const std::vecto
     if (n == 0)
         return;
     medium_.directed = vertices.directed;
+    medium_.counted = vertices.counted;
     std::vector<float> targets(n), powers(n);
     std::vector<GatherPoint> seen;
     seen.reserve(points.size());
@@ -154,78 +157,123 @@ Bsdf BlockVertices::shade(const SurfaceVertex &v) {
     return scene_.materials.shade(surface, {v.incoming}, closures_).bsdf;
 }
 
-Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, TraceContext &rays) const {
-    const Medium &medium = *scene_.medium;
-    const HenyeyGreenstein phase = medium.phase();
-    const bool isotropic = !medium_.directed;
-    const uint32_t subset = std::min(uint32_t(sampler.next_1d() * float(settings_.subsets)), settings_.subsets - 1);
+struct BlockVertices::GatherQuery {
+    Vec3f x, seen; ///< unit direction in which the camera looks
+    uint32_t subset;
+    float medium_clamp_distance, surface_clamp_distance;
+};
+
+/// The connections of a gather point to one subset. `parts` are means over the channels, 0 for what is not joined.
+struct BlockVertices::Connections {
+    Rgb total;
+    float total_part = 0;
+    size_t medium_count = 0, surface_count = 0;
+    ConnectionSums medium_sums{};
     alignas(64) std::array<float, tuning::kMediumPicks> medium_parts;
     std::array<float, tuning::kSurfacePicks> surface_parts;
     std::array<Rgb, tuning::kSurfacePicks> surface_values;
-    const float clamp_distance_scale = settings_.clamp_distance_scale(scene_.camera.distance(x));
-    const float medium_clamp_distance = clamp_distance_scale * settings_.medium_clamp_distance,
-                surface_clamp_distance = clamp_distance_scale * settings_.surface_clamp_distance;
-    Rgb total;
-    float parts = 0;
+};
 
-    const size_t medium_count = medium_.size() ? tuning::kMediumPicks : 0,
-                 medium_first = size_t(subset) * tuning::kMediumPicks;
-    ConnectionSums medium_sums{};
-    if (medium_count) {
-        const GatherPoint point{x.x, x.y, x.z, seen.x, seen.y, seen.z};
-        medium_sums = connect_kernels().connect(medium.simd_view(), columns(medium_, medium_first), medium_count, point,
-                                                medium_clamp_distance, medium_parts.data());
-        total = Rgb(medium_sums.r, medium_sums.g, medium_sums.b);
-        parts = medium_sums.mean;
+Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &room, Sampler &sampler,
+                          TraceContext &rays) const {
+    const uint32_t subset = std::min(uint32_t(sampler.next_1d() * float(settings_.subsets)), settings_.subsets - 1);
+    const float scale = settings_.clamp_distance_scale(scene_.camera.distance(x));
+    const GatherQuery point{x, seen, subset, scale * settings_.medium_clamp_distance,
+                            scale * settings_.surface_clamp_distance};
+    Connections connections;
+    if (medium_.size())
+        connect_medium(point, room, connections);
+    if (!surface_.empty())
+        connect_surface(point, room, connections);
+    if (!(connections.total_part > 0))
+        return connections.total;
+    return correct_visibility(point, connections, sampler.next_1d() * connections.total_part, rays);
+}
+
+void BlockVertices::connect_medium(const GatherQuery &point, const DepthLimits &room, Connections &connections) const {
+    const size_t first = size_t(point.subset) * tuning::kMediumPicks;
+    VertexColumns vertices = columns(medium_, first);
+    alignas(64) std::array<std::array<float, tuning::kMediumPicks>, 3> power;
+    if (!deepest_.fits(room)) { // vertices too deep take part with a power of 0
+        for (size_t k = 0; k < tuning::kMediumPicks; ++k) {
+            const bool fits = medium_.depth[first + k].fits(room);
+            power[0][k] = fits ? vertices.r[k] : 0;
+            power[1][k] = fits ? vertices.g[k] : 0;
+            power[2][k] = fits ? vertices.b[k] : 0;
+        }
+        vertices.r = power[0].data(), vertices.g = power[1].data(), vertices.b = power[2].data();
     }
-    const size_t surface_count = surface_.empty() ? 0 : tuning::kSurfacePicks;
-    const ShadedVertex *surface = surface_count ? &surface_[size_t(subset) * tuning::kSurfacePicks] : nullptr;
-    for (size_t k = 0; k < surface_count; ++k) {
-        const SurfaceVertex &v = surface[k].vertex;
-        const Vec3f to_point = x - v.position;
-        surface_parts[k] = 0;
-        if (!(dot(to_point, v.geometric) > 0))
+    const GatherPoint place{point.x.x, point.x.y, point.x.z, point.seen.x, point.seen.y, point.seen.z};
+    const ConnectionSums sums =
+        connect_kernels().connect(scene_.medium->simd_view(), vertices, tuning::kMediumPicks, place,
+                                  point.medium_clamp_distance, connections.medium_parts.data());
+    connections.medium_count = tuning::kMediumPicks;
+    connections.medium_sums = sums;
+    connections.total = Rgb(sums.r, sums.g, sums.b);
+    connections.total_part = sums.mean;
+}
+
+void BlockVertices::connect_surface(const GatherQuery &point, const DepthLimits &room, Connections &connections) const {
+    const HenyeyGreenstein phase = scene_.medium->phase();
+    const float d0 = point.surface_clamp_distance;
+    const ShadedVertex *vertices = &surface_[size_t(point.subset) * tuning::kSurfacePicks];
+    connections.surface_count = tuning::kSurfacePicks;
+    for (size_t k = 0; k < tuning::kSurfacePicks; ++k) {
+        const SurfaceVertex &v = vertices[k].vertex;
+        const Vec3f to_point = point.x - v.position;
+        connections.surface_parts[k] = 0;
+        if (!(dot(to_point, v.geometric) > 0) || !v.depth.fits(room))
             continue;
         const float d2 = length_squared(to_point), d = std::sqrt(d2);
-        const Connection c = connect(v, surface[k].bsdf, to_point / d);
-        const float scale =
-            c.bounded * phase.eval(seen, -to_point / d) / (d2 + surface_clamp_distance * surface_clamp_distance);
-        surface_values[k] = c.factor * v.power * medium.transmittance({v.position, to_point / d}, d) * scale;
-        surface_parts[k] = mean_component(surface_values[k]);
-        total += surface_values[k];
-        parts += surface_parts[k];
+        const Connection c = connect(v, vertices[k].bsdf, to_point / d);
+        const float scale = c.bounded * phase.eval(point.seen, -to_point / d) / (d2 + d0 * d0);
+        const Rgb value = c.factor * v.power * scene_.medium->transmittance({v.position, to_point / d}, d) * scale;
+        connections.surface_values[k] = value;
+        connections.surface_parts[k] = mean_component(value);
+        connections.total += value;
+        connections.total_part += connections.surface_parts[k];
     }
-    if (!(parts > 0))
-        return total;
+}
 
-    // One shadow ray corrects the sum, which took every vertex for visible (docs/method.md, section 4).
-    const auto corrected = [&](const Rgb &value, float part, const Ray &ray) {
-        const Rgb arriving = ray.t_max > 0 ? visibility(scene_, ray, rays) : Rgb(1);
-        return arriving == Rgb(1) ? total : total - value * (Rgb(1) - arriving) * (parts / part);
-    };
-    float left = sampler.next_1d() * parts;
-    for (size_t k = 0; k < surface_count; ++k) {
-        if (surface_parts[k] > 0 && left < surface_parts[k]) {
-            const SurfaceVertex &v = surface[k].vertex;
-            const Vec3f from = v.position + v.geometric * v.error, way = x - from;
+Rgb BlockVertices::correct_visibility(const GatherQuery &point, const Connections &connections, float left,
+                                      TraceContext &rays) const {
+    // The sum took every vertex for visible (docs/method.md, section 4).
+    for (size_t k = 0; k < connections.surface_count; ++k) {
+        const float part = connections.surface_parts[k];
+        if (part > 0 && left < part) {
+            const SurfaceVertex &v = surface_[size_t(point.subset) * tuning::kSurfacePicks + k].vertex;
+            const Vec3f from = v.position + v.geometric * v.error, way = point.x - from;
             const float d = length(way);
-            return corrected(surface_values[k], surface_parts[k], {from, way / d, d});
+            return correct(connections, connections.surface_values[k], part, {from, way / d, d}, rays);
         }
-        left -= surface_parts[k];
+        left -= part;
     }
-    if (medium_count == 0)
-        return total;
-    const size_t k = pick_medium_part(medium_parts.data(), medium_count, medium_sums, left);
-    if (!(medium_parts[k] > 0)) // rounding let `left` outlast the surface's parts, and the medium has none
-        return total;
-    const size_t j = medium_first + k;
-    const Vec3f way = medium_.position(j) - x;
-    const float d = length(way);
-    const float phases = isotropic ? kIsotropicPhase * kIsotropicPhase
-                                   : phase.eval(seen, way / d) * phase.eval(medium_.direction(j), -way / d);
-    const Rgb value = medium_.power(j) * medium.transmittance({x, way / d}, d) *
-                      (phases / (d * d + medium_clamp_distance * medium_clamp_distance));
-    return corrected(value, medium_parts[k], {x, way / d, d});
+    return connections.medium_count ? correct_medium(point, connections, left, rays) : connections.total;
+}
+
+Rgb BlockVertices::correct_medium(const GatherQuery &point, const Connections &connections, float left,
+                                  TraceContext &rays) const {
+    const size_t k =
+        pick_medium_part(connections.medium_parts.data(), connections.medium_count, connections.medium_sums, left);
+    const float part = connections.medium_parts[k];
+    if (!(part > 0)) // rounding let `left` outlast the surface's parts, and the medium has none
+        return connections.total;
+    const size_t j = size_t(point.subset) * tuning::kMediumPicks + k;
+    const Vec3f way = medium_.position(j) - point.x;
+    const float d = length(way), d0 = point.medium_clamp_distance;
+    const HenyeyGreenstein phase = scene_.medium->phase();
+    const float phases = medium_.directed ? phase.eval(point.seen, way / d) * phase.eval(medium_.direction(j), -way / d)
+                                          : kIsotropicPhase * kIsotropicPhase;
+    const Rgb value =
+        medium_.power(j) * scene_.medium->transmittance({point.x, way / d}, d) * (phases / (d * d + d0 * d0));
+    return correct(connections, value, part, {point.x, way / d, d}, rays);
+}
+
+Rgb BlockVertices::correct(const Connections &connections, const Rgb &value, float part, const Ray &ray,
+                           TraceContext &rays) const {
+    const Rgb arriving = ray.t_max > 0 ? visibility(scene_, ray, rays) : Rgb(1);
+    return arriving == Rgb(1) ? connections.total
+                              : connections.total - value * (Rgb(1) - arriving) * (connections.total_part / part);
 }
 
 } // namespace glimmer

@@ -23,10 +23,13 @@ class BlockVertices {
     /// Radiance that the medium at x scatters towards the camera, which looks along `seen` (unit, away from the
     /// camera), per unit of the weight of scattering at x: all light that was scattered at least once before, each
     /// vertex weighted by w(d) with the clamp distance of x. The sum over one subset of the picks, corrected by one
-    /// shadow ray. Unbiased; a single estimate may be negative.
-    Rgb gather(const Vec3f &x, const Vec3f &seen, Sampler &sampler, TraceContext &rays) const;
+    /// shadow ray. Unbiased; a single estimate may be negative. room: how many vertices the depth limits leave to the
+    /// light subpath; vertices of greater depth are not joined.
+    Rgb gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &room, Sampler &sampler, TraceContext &rays) const;
 
   private:
+    struct GatherQuery;
+    struct Connections;
     /// A picked surface vertex with its closures, which all of its connections share.
     struct ShadedVertex {
         SurfaceVertex vertex;
@@ -35,9 +38,19 @@ class BlockVertices {
     void pick_medium(const MediumVertices &vertices, const std::vector<Vec3f> &points, Sampler &sampler);
     void pick_surface(const std::vector<SurfaceVertex> &vertices, const std::vector<Vec3f> &points, Sampler &sampler);
     Bsdf shade(const SurfaceVertex &v);
+    void connect_medium(const GatherQuery &point, const DepthLimits &room, Connections &connections) const;
+    void connect_surface(const GatherQuery &point, const DepthLimits &room, Connections &connections) const;
+    /// `connections.total` less what a shadow ray to one vertex, chosen by its part of the sum, shows to be hidden.
+    Rgb correct_visibility(const GatherQuery &point, const Connections &connections, float left,
+                           TraceContext &rays) const;
+    /// The same where that vertex is in the medium.
+    Rgb correct_medium(const GatherQuery &point, const Connections &connections, float left, TraceContext &rays) const;
+    /// The same for a vertex that brings `value` along `ray`, with `part` as its part of the sum.
+    Rgb correct(const Connections &connections, const Rgb &value, float part, const Ray &ray, TraceContext &rays) const;
 
     const Scene &scene_;
     VplSettings settings_;
+    VertexDepth deepest_;               ///< greatest depths of the picks in the medium; 0 where depths are not kept
     MediumVertices medium_;             ///< (subsets, kMediumPicks)
     std::vector<ShadedVertex> surface_; ///< (subsets, kSurfacePicks)
     ClosureArena closures_;             ///< those that surface_ refers to

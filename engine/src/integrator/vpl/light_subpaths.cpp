@@ -49,19 +49,32 @@ class LightSubpath {
         uint32_t specular_depth = 0; ///< mirrors and dielectrics in a row
         float remainder =
             0; ///< fraction of the power that connections of the last vertex do not carry; 0 in the medium
+        VertexDepth depth = {}; ///< of the last vertex
     };
 
+    /// Whether the depth limits let a gather point join a vertex of this depth.
+    bool may_be_joined(const VertexDepth &depth) const {
+        return depth.depth < settings_.limits.depth && depth.scatter < settings_.limits.scatter;
+    }
+
     void segment(Branch path) {
+        ++path.depth.depth;
+        if (!may_be_joined(path.depth))
+            return;
         const auto hit = scene_.accel->intersect(path.ray);
         ++rays_.rays;
         const float own_end = path.ray.t_max; // finite only within a see-through ball light, where the ray ends
         path.ray.t_max = kInfinity;
         if (const Medium *medium = path.interior.medium(scene_.outside())) {
-            const FreeFlight flight =
-                medium->sample_free_flight(path.ray, path.power, hit ? hit->t : own_end, sampler_);
-            path.power *= flight.weight;
-            if (flight.scattered)
-                return scatter_in_medium(path, *medium, path.ray.origin + path.ray.direction * flight.t);
+            const float end = hit ? hit->t : own_end;
+            if (may_be_joined({path.depth.depth, path.depth.scatter + 1})) {
+                const FreeFlight flight = medium->sample_free_flight(path.ray, path.power, end, sampler_);
+                path.power *= flight.weight;
+                if (flight.scattered)
+                    return scatter_in_medium(path, *medium, path.ray.origin + path.ray.direction * flight.t);
+            } else {
+                path.power *= medium->transmittance(path.ray, end);
+            }
         }
         if (hit)
             scatter_at_surface(path, *hit);
@@ -102,11 +115,12 @@ class LightSubpath {
     }
 
     void scatter_in_medium(Branch &path, const Medium &medium, const Vec3f &x) {
+        ++path.depth.scatter;
         const float weight = apply_window(path, x);
         if (weight == 0)
             return;
         const Vec3f before = path.ray.direction;
-        out_.medium.add(x, path.power, before);
+        out_.medium.add(x, path.power, before, path.depth);
         split(path, weight, [&](Branch &next) {
             next.from_delta = false;
             next.specular_depth = 0;
@@ -138,7 +152,8 @@ class LightSubpath {
                         surface.instance,
                         surface.primitive,
                         surface.u,
-                        surface.v};
+                        surface.v,
+                        path.depth};
         if (!(dot(incoming, v.geometric) > 0))
             return;
         if (!is_specular(bsdf))
@@ -311,6 +326,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
                                    Sampler &sampler, TraceContext &rays) {
     LightVertices out;
     out.medium.directed = scene.medium && scene.medium->phase().g != 0;
+    out.medium.counted = !(settings.limits == DepthLimits{});
     const LightSet &lights = scene.lights;
     const std::vector<double> shares = start_shares(lights, importance);
     LightSubpath subpath(scene, importance, settings, sampler, rays, out);

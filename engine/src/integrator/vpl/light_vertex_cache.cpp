@@ -14,6 +14,7 @@ namespace {
 struct LightVertexWave final : WaveData {
     size_t bytes() const override {
         return (vertices.medium.x.capacity() * 6 + vertices.medium.dx.capacity() * 3) * sizeof(float) +
+               vertices.medium.depth.capacity() * sizeof(VertexDepth) +
                vertices.surface.capacity() * sizeof(SurfaceVertex) + vertices.splats.capacity() * sizeof(Splat);
     }
     uint64_t seed, sample;
@@ -36,10 +37,25 @@ bool has_finite_light(const Scene &scene) {
     return false;
 }
 
+/// Why the cache would not serve a medium that scatters; null where it does.
+const char *reason_against(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera) {
+    if (limits.depth < 2 || limits.scatter < 1)
+        return "max_depth is below 2 or max_scatter below 1";
+    if (!around_camera.empty())
+        return "the camera is inside glass";
+    if (has_narrow_peak(scene.medium->phase()))
+        return "the fog's anisotropy is outside -0.6 to 0.9";
+    if (is_dense_and_white(scene))
+        return "the fog is so dense and white that light wanders through all of the scene";
+    if (!has_finite_light(scene))
+        return "no light but from infinity";
+    return nullptr;
+}
+
 } // namespace
 
-LightVertexCache::LightVertexCache(const Scene &scene, const InteriorStack &around_camera)
-    : scene_(scene), around_camera_(around_camera), settings_(make_vpl_settings(scene, around_camera)) {}
+LightVertexCache::LightVertexCache(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera)
+    : scene_(scene), around_camera_(around_camera), settings_(make_vpl_settings(scene, limits, around_camera)) {}
 
 std::unique_ptr<const WaveData> LightVertexCache::prepare_wave(uint64_t seed, uint64_t sample,
                                                                TraceContext &rays) const {
@@ -70,14 +86,13 @@ std::unique_ptr<const BlockData> LightVertexCache::prepare_block(const WaveData 
     return shared;
 }
 
-std::unique_ptr<const LightVertexCache> plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
-                                                                const InteriorStack &around_camera) {
-    const DepthLimits none;
-    if (!scene.medium || !scene.medium->scatters() || has_narrow_peak(scene.medium->phase()) ||
-        !around_camera.empty() || limits.depth != none.depth || limits.scatter != none.scatter ||
-        is_dense_and_white(scene) || !has_finite_light(scene))
-        return nullptr;
-    return std::make_unique<LightVertexCache>(scene, around_camera);
+LightVertexPlan plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
+                                        const InteriorStack &around_camera) {
+    if (!scene.medium || !scene.medium->scatters())
+        return {};
+    if (const char *reason = reason_against(scene, limits, around_camera))
+        return {nullptr, std::string("no light vertices shared by all pixels, fog is slower: ") + reason};
+    return {std::make_unique<LightVertexCache>(scene, limits, around_camera), {}};
 }
 
 } // namespace glimmer

@@ -10,6 +10,7 @@
 #include "medium/interior_stack.h"
 
 #include <memory>
+#include <string>
 
 namespace glimmer {
 
@@ -31,7 +32,7 @@ struct LightVertexBlock final : BlockData {
 
 class LightVertexCache {
   public:
-    LightVertexCache(const Scene &scene, const InteriorStack &around_camera);
+    LightVertexCache(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera);
 
     /// Traces the light subpaths of a wave.
     std::unique_ptr<const WaveData> prepare_wave(uint64_t seed, uint64_t sample, TraceContext &rays) const;
@@ -45,14 +46,18 @@ class LightVertexCache {
     VplSettings settings_;
 };
 
-/// The cache for a scene, or null where plain path tracing takes over (docs/method.md, section 9):
-/// - no medium, or a medium that does not scatter;
+struct LightVertexPlan {
+    std::unique_ptr<const LightVertexCache> cache; ///< null where plain path tracing takes over
+    std::string left_out; ///< why there is no cache, a line for the report; empty where no medium scatters
+};
+
+/// The cache for a scene. There is none (docs/method.md, section 9) without a medium that scatters, and for
 /// - a phase function with too narrow a peak, which all but unbounds the connections;
 /// - a camera within a dielectric, whose rays do not scatter in the medium;
-/// - limits on the depth;
+/// - depth limits that leave no room for a light vertex and a gather point;
 /// - a medium so dense and white that light wanders through all of the scene;
-/// - no light that light subpaths could start from (all are infinite).
-std::unique_ptr<const LightVertexCache> plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
-                                                                const InteriorStack &around_camera);
+/// - lights that are all infinite, from which no light subpath could start.
+LightVertexPlan plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
+                                        const InteriorStack &around_camera);
 
 } // namespace glimmer

@@ -3,6 +3,7 @@
 // on surfaces, and splats on the film.
 #pragma once
 
+#include "integrator/depth_limits.h"
 #include "integrator/vpl/splat.h"
 #include "math/vec.h"
 
@@ -10,23 +11,37 @@
 
 namespace glimmer {
 
+/// How many scattering vertices a light subpath has up to one of its vertices, that one included (docs/method.md,
+/// section 12).
+struct VertexDepth {
+    uint32_t depth = 0;   ///< on surfaces, specular ones too, and in the medium
+    uint32_t scatter = 0; ///< in the medium
+
+    bool fits(const DepthLimits &room) const { return depth <= room.depth && scatter <= room.scatter; }
+};
+
 /// Light vertices in the medium, as a structure of arrays of equal size for the SIMD kernels. The power of a vertex is
 /// the flux that is scattered there, already multiplied by the albedo.
 struct MediumVertices {
     bool directed = false; ///< whether directions are kept; an isotropic medium has no use for them
+    bool counted = false;  ///< whether depths are kept; without depth limits there is no use for them
     std::vector<float> x, y, z, r, g, b;
-    std::vector<float> dx, dy, dz; ///< unit, of flight before the scattering; empty unless directed
+    std::vector<float> dx, dy, dz;  ///< unit, of flight before the scattering; empty unless directed
+    std::vector<VertexDepth> depth; ///< empty unless counted
 
     size_t size() const { return x.size(); }
-    void add(const Vec3f &position, const Rgb &power, const Vec3f &direction) {
+    void add(const Vec3f &position, const Rgb &power, const Vec3f &direction, const VertexDepth &vertex_depth) {
         x.push_back(position.x), y.push_back(position.y), z.push_back(position.z);
         r.push_back(power.r), g.push_back(power.g), b.push_back(power.b);
         if (directed)
             dx.push_back(direction.x), dy.push_back(direction.y), dz.push_back(direction.z);
+        if (counted)
+            depth.push_back(vertex_depth);
     }
-    /// Adds vertex i of `others`, which must be directed alike, with its power scaled.
+    /// Adds vertex i of `others`, which must be directed and counted alike, with its power scaled.
     void add(const MediumVertices &others, size_t i, float scale) {
-        add(others.position(i), others.power(i) * scale, directed ? others.direction(i) : Vec3f());
+        add(others.position(i), others.power(i) * scale, directed ? others.direction(i) : Vec3f(),
+            counted ? others.depth[i] : VertexDepth());
     }
     Vec3f direction(size_t i) const { return {dx[i], dy[i], dz[i]}; }
     Vec3f position(size_t i) const { return {x[i], y[i], z[i]}; }
@@ -42,6 +57,7 @@ struct SurfaceVertex {
     float reflected;              ///< mean component of power * albedo, the worth of the vertex when picks are drawn
     uint32_t instance, primitive; ///< with u, v the place on the surface, from which a pick is shaded
     float u, v;
+    VertexDepth depth;
 };
 
 struct LightVertices {

@@ -57,8 +57,9 @@ float clamp_distance(const Medium &medium, std::vector<float> &pilot_densities, 
 
 } // namespace
 
-VplSettings make_vpl_settings(const Scene &scene, const InteriorStack &around_camera) {
+VplSettings make_vpl_settings(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera) {
     VplSettings settings;
+    settings.limits = limits;
     const FilmSettings &film = scene.film;
     const uint32_t pixels = film.crop_width * film.crop_height;
     const uint32_t pixels_per_path = scene.has_surfaces ? tuning::kPixelsPerPath : tuning::kPixelsPerPathInMediumAlone;

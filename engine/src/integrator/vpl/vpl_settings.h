@@ -2,6 +2,7 @@
 // Counts and lengths of the light vertex cache, set once for a scene (docs/method.md, section 8).
 #pragma once
 
+#include "integrator/depth_limits.h"
 #include "integrator/vpl/tuning.h"
 #include "math/vec.h"
 
@@ -15,6 +16,7 @@ class InteriorStack;
 class Scene;
 
 struct VplSettings {
+    DepthLimits limits;                  ///< of a whole path, from the camera to the light
     uint32_t paths = 0;                  ///< light subpaths a wave
     uint32_t gathers = tuning::kGathers; ///< gather points on a segment that the camera sees directly
     uint32_t subsets = tuning::kSubsets; ///< interleaved subsets of a block's picks; each gather point takes one
@@ -43,6 +45,6 @@ inline float bounding_weight(float d, float d0) {
 
 /// Sets everything from the size of the picture and from a pilot of light subpaths. The scene has a medium that
 /// scatters, and a light that is not infinite.
-VplSettings make_vpl_settings(const Scene &scene, const InteriorStack &around_camera);
+VplSettings make_vpl_settings(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera);
 
 } // namespace glimmer
