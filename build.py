@@ -505,12 +505,16 @@ class BenchOptions:
     scenes: str | None
     peers: Sequence[str]
     output: Path | None
+    tuning: str | None
 
 
 def bench(blender: str | None, given: BenchOptions) -> None:
     executable = setup(blender, ("build", "render", "test", *given.peers))
     if executable is None:
         raise BuildError("the benchmark needs a Blender: it exports the scenes, and Cycles runs in it")
+    if given.tuning is not None:
+        tune(given.tuning, given.scenes, executable)
+        return
     build()
     options = [*(["--quick"] if given.quick else []), *([] if given.cycles else ["--no-cycles"])]
     options += ["--scenes", given.scenes] if given.scenes is not None else []
@@ -527,6 +531,15 @@ def bench(blender: str | None, given: BenchOptions) -> None:
         command += ["--peer", f"{peer}={virtual_environment(peer)}"]
     command += ["--glimmer", COMMAND, "--blender", executable, "--output", given.output or BUILD / "bench"]
     run([*command, "--said", shlex.join(said)], env=host_environment(BUILD / "profile", executable))
+
+
+def tune(name: str, scenes: str | None, blender: Path) -> None:
+    """Varies one constant of the engine in a build that reads its constants from the environment."""
+    build("tunable")
+    command: list[str | Path] = [virtual_environment("bench"), "-m", "tests.bench.tuning", name]
+    command += ["--scenes", scenes] if scenes is not None else []
+    command += ["--glimmer", BUILD / "tunable" / "bin" / "glimmer", "--blender", blender]
+    run([*command, "--output", BUILD / "bench" / "tuning"], env=host_environment(BUILD / "profile", blender))
 
 
 def claims(blender: str | None, seeds: int) -> None:
@@ -662,6 +675,11 @@ def arguments() -> argparse.ArgumentParser:
     item.add_argument("--no-cycles", action="store_true", help="leave Cycles out")
     item.add_argument("--scenes", metavar="NAME,...", help="some of its scenes (default: all six)")
     item.add_argument(
+        "--tuning",
+        metavar="NAME",
+        help="instead, vary one constant of engine/src/integrator/vpl/tuning.h and print variance x CPU time",
+    )
+    item.add_argument(
         "--peers",
         type=lambda text: text.split(","),
         default=[],
@@ -731,7 +749,10 @@ def main(argv: Sequence[str]) -> int:
             unknown = sorted(set(given.peers) - set(PEERS))
             if unknown:
                 parser.error(f"--peers {', '.join(unknown)}: must be of {', '.join(PEERS)}")
-            bench(given.blender, BenchOptions(given.quick, not given.no_cycles, given.scenes, given.peers, output))
+            bench(
+                given.blender,
+                BenchOptions(given.quick, not given.no_cycles, given.scenes, given.peers, output, given.tuning),
+            )
         elif given.command == "check":
             report = given.report.absolute() if given.report else None
             check(given.blender, CheckOptions(given.quick, given.integrator, given.only, given.cycles, report))

@@ -81,9 +81,9 @@ void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings 
     const Medium &medium = *scene.medium;
     const float extinction = medium.least_scattering_extinction();
     for (uint32_t k = 0; k < tuning::kSplatPoints; ++k) {
-        const float u = (float(k) + sampler.next_1d()) / tuning::kSplatPoints;
+        const float u = (float(k) + sampler.next_1d()) / float(tuning::kSplatPoints);
         const PointOnRay at = scene.camera.sample_seen(segment.ray, seen, extinction, u);
-        const float t = at.t, pdf = at.pdf * tuning::kSplatPoints;
+        const float t = at.t, pdf = at.pdf * float(tuning::kSplatPoints);
         if (!(pdf > 0) || !(t >= 0 && t < kInfinity))
             continue;
         const Vec3f x = segment.ray.origin + segment.ray.direction * t;
