@@ -6,7 +6,8 @@
 //   vpl_gather.inl  light scattered more than once, from the light vertices of the wave (../vpl)
 //   surface.inl     scattering at its end
 //   pixel_ris.inl   direct light of what the camera sees, resampled among several points of the pixel
-// They are compiled together, for several sets of features, by kernel.inl.
+// They are compiled together, for several sets of features, by kernel.inl. docs/method.md derives the estimator; its
+// section 2 says which of them brings which paths.
 #pragma once
 
 #include "integrator/path/kernels.h"
@@ -113,8 +114,9 @@ class PathSample {
     void gather_along(const State &state, float end, const Medium &medium);
     /// Adds the light that the medium at state.ray.origin scatters back along the ray after it was scattered before:
     /// the bounded connections to the light vertices now, what they leave out by the compensation ray that `state`
-    /// becomes. False if roulette ended it. points: the number of gather points of the segment. t: the distance of the
-    /// point from where the camera's ray starts, 0 where the point is not on that ray and so no splats count.
+    /// becomes. False if roulette or a depth limit ended it. points: the number of gather points of the segment. t: the
+    /// distance of the point from where the camera's ray starts, 0 where the point is not on that ray and so no splats
+    /// count.
     bool gather(State &state, float points, float t, float roulette_scale);
     /// Follows a compensation ray to the next vertex.
     void compensate(State &state, const Medium &medium);
