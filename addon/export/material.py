@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..scene.description import (
     BLACK,
+    WHITE,
     Conductor,
     Glass,
     Lambert,
@@ -22,9 +23,10 @@ from ..scene.description import (
     Null,
     Rgb,
     Surface,
+    Translucent,
+    Transparent,
 )
 from ..scene.problems import Notices, place
-from .color import luminance
 from .combine import add, mix
 from .nodes import Input, Nodes, Source, scaled
 from .principled import principled
@@ -35,18 +37,23 @@ if TYPE_CHECKING:
 # Below this the engine's GGX is a mirror; its mirror keeps the colour at every angle, as Blender's does.
 MIRROR_ALPHA = 1e-4
 
+# From here on Cycles' rough diffuse surfaces keep the light that their facets send on to each other.
+MULTIPLE_SCATTERING_FROM = (4, 3)
+
 # What an object without a material shows, here and in Cycles.
 DEFAULT_SURFACE = Lambert((0.8, 0.8, 0.8))
 
 
-def export_material(material: bpy.types.Material | None, object_name: str, notices: Notices) -> NamedMaterial:
-    """object_name: the first object that uses it, for notices."""
+def export_material(
+    material: bpy.types.Material | None, object_name: str, version: tuple[int, ...], notices: Notices
+) -> NamedMaterial:
+    """object_name: the first object that uses it, for notices. version: Blender's."""
     if material is None:
         return NamedMaterial("default", DEFAULT_SURFACE)
     where = place(object_name, material.name)
     if not material.use_nodes or material.node_tree is None:
         return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
-    result = _Shaders(material, where, notices).output()
+    result = _Shaders(material, where, version, notices).output()
     return NamedMaterial(material.name_full, result, material.pass_index)
 
 
@@ -69,10 +76,11 @@ def _clipped(color: Rgb) -> Rgb:
 class _Shaders:
     """The shader nodes of one material."""
 
-    def __init__(self, material: bpy.types.Material, where: str, notices: Notices) -> None:
+    def __init__(self, material: bpy.types.Material, where: str, version: tuple[int, ...], notices: Notices) -> None:
         self.nodes = Nodes(material.node_tree, where, notices)
         self.viewport_color = _rgb(material.diffuse_color)
         self.where = where
+        self.version = version
         self.notices = notices
 
     def output(self) -> Material:
@@ -133,9 +141,6 @@ class _Shaders:
     def number(self, source: Source, *names: str, default: float = 0.0) -> float:
         return self.nodes.number(source.node, source.groups, *names, default=default)
 
-    def tell(self, source: Source) -> Callable[[str], None]:
-        return lambda what: self.nodes.notice(source.node, what)
-
     # ---- Shaders ----
 
     def emission(self, source: Source) -> Material:
@@ -147,9 +152,15 @@ class _Shaders:
         return Light((max(radiance[0], 0.0), max(radiance[1], 0.0), max(radiance[2], 0.0)))
 
     def diffuse(self, source: Source) -> Material:
-        if self.number(source, "Roughness") > 0.0:
-            self.nodes.notice(source.node, "a rough diffuse surface (Oren-Nayar) is not supported; it is Lambert's")
-        return Lambert(self.albedo(source))
+        return self.rough_diffuse(self.albedo(source), self.number(source, "Roughness"))
+
+    def rough_diffuse(self, albedo: Rgb, roughness: float) -> Lambert:
+        roughness = min(max(roughness, 0.0), 1.0)
+        if roughness == 0.0:
+            return Lambert(albedo)
+        return Lambert(
+            albedo, roughness=roughness, facets="multiple" if self.version >= MULTIPLE_SCATTERING_FROM else "single"
+        )
 
     def glossy(self, source: Source) -> Material:
         color, alpha = self.albedo(source), self._alpha(source)
@@ -182,18 +193,21 @@ class _Shaders:
 
     def glass(self, source: Source) -> Material:
         node = source.node
-        if node.bl_idname == "ShaderNodeBsdfRefraction":
-            self.nodes.notice(node, "refraction alone is not supported; it is glass, which also reflects")
-        if getattr(node, "distribution", "SHARP") != "SHARP" and self.number(source, "Roughness") > 0.0:
-            self.nodes.notice(node, "rough glass is not supported; it is smooth")
-        if min(self.color(source, "Color")) < 0.999:
-            self.nodes.notice(node, "coloured glass is not supported; it is clear")
-        return Glass(max(self.number(source, "IOR"), 1e-3))
+        color, alpha = self.albedo(source), self._alpha(source)
+        return Glass(
+            max(self.number(source, "IOR"), 1e-3),
+            0.0 if alpha < MIRROR_ALPHA else alpha,
+            color,
+            color,
+            lobes="refraction" if node.bl_idname == "ShaderNodeBsdfRefraction" else "both",
+        )
 
     def transparent(self, source: Source) -> Material:
-        if luminance(self.color(source, "Color")) < 0.999:
-            self.nodes.notice(source.node, "coloured transparency is not supported; it is clear")
-        return Null()
+        transmittance = self.albedo(source)
+        return Null() if transmittance == WHITE else Transparent(transmittance)
+
+    def translucent(self, source: Source) -> Material:
+        return Translucent(self.albedo(source))
 
     def principled(self, source: Source) -> Material:
         return principled(self, source)
@@ -206,11 +220,11 @@ class _Shaders:
             return self.shader(first)
         if factor >= 1.0:
             return self.shader(second)
-        return mix(factor, self.shader(first), self.shader(second), self.tell(source))
+        return mix(factor, self.shader(first), self.shader(second))
 
     def add(self, source: Source) -> Material:
         first, second = (self.shader(Input(source.node.inputs[i], source.groups)) for i in (0, 1))
-        return add(first, second, self.tell(source))
+        return add(first, second)
 
 
 _SHADERS: dict[str, Callable[[_Shaders, Source], Material]] = {
@@ -222,6 +236,7 @@ _SHADERS: dict[str, Callable[[_Shaders, Source], Material]] = {
     "ShaderNodeBsdfGlass": _Shaders.glass,
     "ShaderNodeBsdfRefraction": _Shaders.glass,
     "ShaderNodeBsdfTransparent": _Shaders.transparent,
+    "ShaderNodeBsdfTranslucent": _Shaders.translucent,
     "ShaderNodeBsdfPrincipled": _Shaders.principled,
     "ShaderNodeMixShader": _Shaders.mix,
     "ShaderNodeAddShader": _Shaders.add,

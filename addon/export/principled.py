@@ -8,15 +8,13 @@ reflectance over all directions: as bright on the whole, but too bright seen fro
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol
+from math import sqrt
+from typing import Any, Protocol
 
 from ..scene.description import BLACK, WHITE, Conductor, Glass, Lambert, Light, Material, Null, Rgb, Surface
 from .color import ior_of_normal_reflectance, mean_fresnel
 from .combine import mix, mixed
 from .nodes import Nodes, Source, find_input, scaled
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 # Inputs that the engine has nothing for: their names from 4.0, those before, and what they are called in a notice.
 UNSUPPORTED: tuple[tuple[tuple[str, ...], str], ...] = (
@@ -25,7 +23,6 @@ UNSUPPORTED: tuple[tuple[tuple[str, ...], str], ...] = (
     (("Sheen Weight", "Sheen"), "sheen"),
     (("Anisotropic",), "anisotropy"),
     (("Thin Film Thickness",), "the thin film"),
-    (("Diffuse Roughness",), "a rough diffuse base"),
 )
 
 
@@ -37,7 +34,7 @@ class Shaders(Protocol):
     def color(self, source: Source, *names: str) -> Rgb: ...
     def albedo(self, source: Source, *names: str) -> Rgb: ...
     def number(self, source: Source, *names: str, default: float = 0.0) -> float: ...
-    def tell(self, source: Source) -> Callable[[str], None]: ...
+    def rough_diffuse(self, albedo: Rgb, roughness: float) -> Lambert: ...
 
 
 def normal_reflectance(node: Any, ior: float, specular: float) -> float:
@@ -68,16 +65,13 @@ def principled(shaders: Shaders, source: Source) -> Material:
     if metallic < 1.0:
         below: Material = _opaque(shaders, source, base, alpha) if transmission < 1.0 else Lambert(BLACK)
         if transmission > 0.0:
-            below = mix(transmission, below, _glass(shaders, source, base, alpha), shaders.tell(source))
-        result = mix(metallic, below, result, shaders.tell(source))
+            below = mix(transmission, below, _glass(shaders, source, base, alpha))
+        result = mix(metallic, below, result)
     if emission != BLACK:
-        if isinstance(result, Glass):
-            shaders.nodes.notice(node, "glass that emits is not supported; it does not emit")
-        else:
-            assert not isinstance(result, (Light, Null))
-            result = replace(result, emission=emission)
+        assert not isinstance(result, (Light, Null))
+        result = replace(result, emission=emission)
     if opacity < 1.0:
-        result = mix(opacity, Null(), result, shaders.tell(source))
+        result = mix(opacity, Null(), result)
     return result
 
 
@@ -85,17 +79,17 @@ def _opaque(shaders: Shaders, source: Source, base: Rgb, alpha: float) -> Surfac
     specular = max(shaders.number(source, "Specular IOR Level", "Specular"), 0.0)
     ior = max(shaders.number(source, "IOR", default=1.5), 1e-3)
     weight = mean_fresnel(ior_of_normal_reflectance(normal_reflectance(source.node, ior, specular)))
+    diffuse = shaders.rough_diffuse(base, shaders.number(source, "Diffuse Roughness"))
     if weight <= 0.0:
-        return Lambert(base)
+        return diffuse
     shaders.nodes.notice(
         source.node, f"its dielectric layer is approximated by a mix of the same mean reflectance ({weight:.3g})"
     )
-    return mixed(weight, Conductor(alpha=alpha, f0=WHITE), Lambert(base))
+    return mixed(weight, Conductor(alpha=alpha, f0=WHITE), diffuse)
 
 
 def _glass(shaders: Shaders, source: Source, base: Rgb, alpha: float) -> Glass:
-    if alpha > 0.0:
-        shaders.nodes.notice(source.node, "rough glass is not supported; it is smooth")
-    if min(base) < 0.999:
-        shaders.nodes.notice(source.node, "coloured glass is not supported; it is clear")
-    return Glass(max(shaders.number(source, "IOR", default=1.5), 1e-3))
+    # From 4.0 on the base colour is that of light which passes two boundaries.
+    at_each = find_input(source.node, "Specular IOR Level") is None
+    color = base if at_each else (sqrt(base[0]), sqrt(base[1]), sqrt(base[2]))
+    return Glass(max(shaders.number(source, "IOR", default=1.5), 1e-3), alpha, transmission=color)

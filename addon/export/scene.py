@@ -192,5 +192,5 @@ class _Collector:
         key = 0 if material is None else material.original.as_pointer()
         if key not in self._material_numbers:
             self._material_numbers[key] = len(self.materials)
-            self.materials.append(export_material(material, object_name, self._notices))
+            self.materials.append(export_material(material, object_name, self._version, self._notices))
         return self._material_numbers[key]

@@ -71,9 +71,14 @@ class Camera:
 
 @dataclass(frozen=True)
 class Lambert:
+    """A diffuse surface; with a roughness above 0 Oren and Nayar's. facets: "multiple" adds the light that rough
+    facets send on to each other."""
+
     TYPE: ClassVar[str] = "lambert"
     albedo: Rgb
     emission: Rgb = BLACK
+    roughness: float = 0.0
+    facets: str = "single"
 
 
 @dataclass(frozen=True)
@@ -99,14 +104,46 @@ class Conductor:
 
 @dataclass(frozen=True)
 class Glass:
+    """The boundary of a dielectric: smooth, or rough with GGX of width alpha. lobes: "refraction" reflects nothing,
+    whatever Fresnel's equations say."""
+
     TYPE: ClassVar[str] = "glass"
     ior: float
+    alpha: float = 0.0
+    reflection: Rgb = WHITE
+    transmission: Rgb = WHITE  # at each crossing
+    lobes: str = "both"
+    emission: Rgb = BLACK
+
+
+@dataclass(frozen=True)
+class Transparent:
+    TYPE: ClassVar[str] = "transparent"
+    transmittance: Rgb  # of light that goes straight through
+    emission: Rgb = BLACK
+
+
+@dataclass(frozen=True)
+class Translucent:
+    """Lambert's lobe on the other side."""
+
+    TYPE: ClassVar[str] = "translucent"
+    albedo: Rgb
+    emission: Rgb = BLACK
 
 
 @dataclass(frozen=True)
 class Mix:
     TYPE: ClassVar[str] = "mix"
     weight: float  # of a; the rest is b
+    a: Surface
+    b: Surface
+    emission: Rgb = BLACK
+
+
+@dataclass(frozen=True)
+class Add:
+    TYPE: ClassVar[str] = "add"
     a: Surface
     b: Surface
     emission: Rgb = BLACK
@@ -123,8 +160,9 @@ class Null:
     TYPE: ClassVar[str] = "null"
 
 
-Surface = Lambert | Mirror | Conductor | Mix  # what a mix may hold and what may also emit
-Material = Surface | Glass | Light | Null
+# What scatters light, and may also emit.
+Surface = Lambert | Mirror | Conductor | Glass | Transparent | Translucent | Mix | Add
+Material = Surface | Light | Null
 
 
 def parameters(material: Material) -> dict[str, Any]:

@@ -9,14 +9,21 @@ using namespace glimmer;
 using namespace glimmer::probe;
 
 struct probe_lobe {
-    int32_t type; // 0 Lambert, 1 mirror, 2 conductor, 3 report metal
-    int32_t use_f0, masking;
-    float weight, alpha;
-    float color[3], eta[3], k[3], f0[3];
+    int32_t type; // 0 Lambert, 1 mirror, 2 conductor, 3 report metal, 4 dielectric, 5 transparent, 6 translucent, 7
+                  // Oren-Nayar
+    int32_t use_f0, masking, flag;       // flag: Schlick of a dielectric, multiple scattering of Oren-Nayar
+    float weight, alpha;                 // alpha: roughness of Oren-Nayar
+    float color[3], eta[3], k[3], f0[3]; // of a dielectric: transmission, (ior, 0: refraction only, -), -, reflection
 };
 
-static std::vector<WeightedLobe> make(const probe_lobe *lobes, uint64_t count) {
-    std::vector<WeightedLobe> out;
+/// eta: index beyond / index on the side of wo.
+struct Surface {
+    std::vector<WeightedLobe> lobes;
+    Bsdf bsdf;
+};
+static Surface make(const probe_lobe *lobes, uint64_t count, float eta) {
+    Surface surface;
+    std::vector<WeightedLobe> &out = surface.lobes;
     for (uint64_t i = 0; i < count; ++i) {
         const probe_lobe &l = lobes[i];
         Lobe lobe;
@@ -27,31 +34,41 @@ static std::vector<WeightedLobe> make(const probe_lobe *lobes, uint64_t count) {
         else if (l.type == 2)
             lobe = Conductor{l.alpha,       l.use_f0 != 0,  load_rgb(l.eta),
                              load_rgb(l.k), load_rgb(l.f0), static_cast<Masking>(l.masking)};
-        else
+        else if (l.type == 3)
             lobe = BaselineMetal{load_rgb(l.color), load_rgb(l.f0), l.alpha};
+        else if (l.type == 4)
+            lobe = Dielectric{l.eta[0], l.alpha, l.flag != 0, l.eta[1] != 0, load_rgb(l.f0), load_rgb(l.color)};
+        else if (l.type == 5)
+            lobe = Transparent{load_rgb(l.color)};
+        else if (l.type == 6)
+            lobe = Translucent{load_rgb(l.color)};
+        else
+            lobe = OrenNayar{load_rgb(l.color), l.alpha, l.flag != 0};
         out.push_back({lobe, l.weight, 0});
     }
     set_probabilities(out);
-    return out;
+    surface.bsdf = Bsdf(out);
+    surface.bsdf.eta = eta;
+    return surface;
 }
 
 /// wo [3]; wi [n, 3]; f [n, 3], pdf [n].
-PROBE void probe_bsdf_eval(const probe_lobe *lobes, uint64_t count, const float *wo, const float *wi, uint64_t n,
-                           float *f, float *pdf_out) {
-    const std::vector<WeightedLobe> bsdf = make(lobes, count);
+PROBE void probe_bsdf_eval(const probe_lobe *lobes, uint64_t count, float eta, const float *wo, const float *wi,
+                           uint64_t n, float *f, float *pdf_out) {
+    const Surface surface = make(lobes, count, eta);
     for (uint64_t i = 0; i < n; ++i) {
-        store(f + 3 * i, eval(Bsdf(bsdf), load3(wo), load3(wi + 3 * i)));
-        pdf_out[i] = pdf(Bsdf(bsdf), load3(wo), load3(wi + 3 * i));
+        store(f + 3 * i, eval(surface.bsdf, load3(wo), load3(wi + 3 * i)));
+        pdf_out[i] = pdf(surface.bsdf, load3(wo), load3(wi + 3 * i));
     }
 }
 
-/// result [n]: 0 nothing, 1 smooth, 2 specular.
-PROBE void probe_bsdf_sample(const probe_lobe *lobes, uint64_t count, const float *wo, const float *u_lobe,
+/// result [n]: 0 nothing, 1 smooth, 2 specular; 4 more where transmitted.
+PROBE void probe_bsdf_sample(const probe_lobe *lobes, uint64_t count, float eta, const float *wo, const float *u_lobe,
                              const float *u, uint64_t n, float *wi, float *weight, float *pdf_out, int32_t *result) {
-    const std::vector<WeightedLobe> bsdf = make(lobes, count);
+    const Surface surface = make(lobes, count, eta);
     for (uint64_t i = 0; i < n; ++i) {
-        const auto s = sample(Bsdf(bsdf), load3(wo), u_lobe[i], load2(u + 2 * i));
-        result[i] = !s ? 0 : s->specular ? 2 : 1;
+        const auto s = sample(surface.bsdf, load3(wo), u_lobe[i], load2(u + 2 * i));
+        result[i] = !s ? 0 : (s->specular ? 2 : 1) + (s->transmitted ? 4 : 0);
         if (!s)
             continue;
         store(wi + 3 * i, s->wi);
@@ -60,15 +77,16 @@ PROBE void probe_bsdf_sample(const probe_lobe *lobes, uint64_t count, const floa
     }
 }
 
-/// select [count], albedo [3], flags [2]: is_specular, has_specular.
+/// select [count], albedo [3], flags [2]: is_specular, has_specular; max_value [1].
 PROBE void probe_bsdf_describe(const probe_lobe *lobes, uint64_t count, float *probability, float *albedo_out,
-                               int32_t *flags) {
-    const std::vector<WeightedLobe> bsdf = make(lobes, count);
+                               int32_t *flags, float *max_value_out) {
+    const Surface surface = make(lobes, count, 1);
     for (uint64_t i = 0; i < count; ++i)
-        probability[i] = bsdf[i].probability;
-    store(albedo_out, albedo(Bsdf(bsdf)));
-    flags[0] = is_specular(Bsdf(bsdf));
-    flags[1] = has_specular(Bsdf(bsdf));
+        probability[i] = surface.lobes[i].probability;
+    store(albedo_out, albedo(surface.bsdf));
+    flags[0] = is_specular(surface.bsdf);
+    flags[1] = has_specular(surface.bsdf);
+    *max_value_out = max_value(surface.bsdf);
 }
 
 /// kind: 0 conductor, 1 dielectric, 2 Schlick from f0 = eta to f90 = k, 3 dielectric by Schlick.
@@ -88,10 +106,10 @@ PROBE void probe_ggx_d(const float *h, float alpha, uint64_t n, float *out) {
 PROBE void probe_glass(const float *wo, const float *eta, int schlick, const float *u, uint64_t n, float *wi,
                        float *weight, float *probability, int32_t *transmitted) {
     for (uint64_t i = 0; i < n; ++i) {
-        const DielectricSample s = sample_dielectric(load3(wo + 3 * i), eta[i], schlick != 0, u[i]);
-        store(wi + 3 * i, s.wi);
-        store(weight + 3 * i, s.weight);
-        probability[i] = s.probability;
-        transmitted[i] = s.transmitted;
+        const auto s = sample(Dielectric{.ior = eta[i], .schlick = schlick != 0}, load3(wo + 3 * i), {}, eta[i], u[i]);
+        store(wi + 3 * i, s->wi);
+        store(weight + 3 * i, s->weight);
+        probability[i] = s->pdf;
+        transmitted[i] = s->transmitted;
     }
 }

@@ -139,6 +139,29 @@ def mixed() -> None:
     tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
 
 
+def mixed_with(kind: str, factor: float, other: str, **inputs: Any) -> None:
+    """A ball: (1 - factor) of a node of this kind with these inputs, factor of another one."""
+    under_lamps(inside.material(kind, **inputs))
+    tree = bpy.data.objects["Ball"].active_material.node_tree
+    first, second, mix = tree.nodes[0], tree.nodes.new(other), tree.nodes.new("ShaderNodeMixShader")
+    if "Color" in second.inputs:
+        second.inputs["Color"].default_value = OCHRE
+    mix.inputs[0].default_value = factor
+    tree.links.new(first.outputs[0], mix.inputs[1])
+    tree.links.new(second.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+
+
+def screen(kind: str, **inputs: Any) -> None:
+    """Between a lamp and a floor, in the camera's view: what the material lets through."""
+    inside.empty_scene((0.1, 0.1, 0.1))
+    floor()
+    inside.lamp("AREA", (0.0, 0.0, 4.0), energy=200.0, shape="RECTANGLE", size=1.0, size_y=1.0)
+    inside.lamp("POINT", (1.0, 0.5, 3.0), energy=100.0, shadow_soft_size=0.0)
+    pane = inside.plane("Pane", 2.0, inside.material(kind, **inputs))
+    pane.location, pane.rotation_euler = (0.0, 0.0, 1.5), (0.3, 0.1, 0.0)
+
+
 def glossy_at_grazing() -> None:
     """Under an even sky, where a reflectance that grows with the angle would show most."""
     scene = inside.empty_scene((0.5, 0.5, 0.5))
@@ -171,6 +194,7 @@ def shader(kind: str, distribution: str | None = None, **inputs: Any) -> Callabl
 
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
+GLASS, DIFFUSE = "ShaderNodeBsdfGlass", "ShaderNodeBsdfDiffuse"
 SCENES: dict[str, Callable[[], Any]] = {
     "point": lambda: under_lamp("POINT", energy=500.0, shadow_soft_size=0.0),
     "sun": lambda: under_lamp("SUN", energy=2.0, angle=0.1),
@@ -188,6 +212,27 @@ SCENES: dict[str, Callable[[], Any]] = {
     "glass": shader("ShaderNodeBsdfGlass", None, Roughness=0.0, IOR=1.5),
     "mix": mixed,
     "absorption": lambda: fog("ShaderNodeVolumeAbsorption", Color=OCHRE, Density=0.1),
+}
+SCENES |= {
+    "glass and diffuse": lambda: mixed_with(DIFFUSE, 0.5, GLASS, Color=OCHRE),
+    "diffuse and clear": lambda: mixed_with(DIFFUSE, 0.5, "ShaderNodeBsdfTransparent", Color=OCHRE),
+    "rough glass": shader(GLASS, "GGX", Color=OCHRE, Roughness=0.25, IOR=1.4),
+    "refraction": shader("ShaderNodeBsdfRefraction", "GGX", Color=OCHRE, Roughness=0.25, IOR=1.4),
+    "coloured glass": shader(GLASS, Color=OCHRE, Roughness=0.0, IOR=1.4),
+    "rough diffuse": shader(DIFFUSE, Color=OCHRE, Roughness=1.0),
+    "translucent": lambda: screen("ShaderNodeBsdfTranslucent", Color=OCHRE),
+    "coloured shadow": lambda: screen("ShaderNodeBsdfTransparent", Color=OCHRE),
+    "alpha": lambda: screen(
+        "ShaderNodeBsdfPrincipled", Base_Color=OCHRE, Specular=0.0, Specular_IOR_Level=0.0, Alpha=0.4
+    ),
+    "principled glass": shader(
+        "ShaderNodeBsdfPrincipled",
+        Base_Color=OCHRE,
+        Transmission=1.0,
+        Transmission_Weight=1.0,
+        Roughness=0.3,
+        IOR=1.4,
+    ),
 }
 if bpy.app.version >= (4, 2):
     # Before, Cycles lost a hundredth of this light: a mean of .2669 +- .0001 in 3.4, .2693 +- .0002 in 4.2, .2695 here.

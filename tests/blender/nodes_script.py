@@ -139,8 +139,34 @@ def procedural() -> Build:
 
 def unknown_shader() -> Build:
     b = Build()
-    b.surface(b.node("ShaderNodeBsdfTranslucent", Color=RED))
+    b.surface(b.node("ShaderNodeBsdfHair", Color=RED))
     return b
+
+
+def leaf() -> Build:
+    """A leaf's nodes: diffuse and translucent, with a hole where alpha says so."""
+    b = Build()
+    diffuse, translucent = b.node("ShaderNodeBsdfDiffuse", Color=RED), b.node("ShaderNodeBsdfTranslucent", Color=RED)
+    add, hole, mix = b.node("ShaderNodeAddShader"), b.node("ShaderNodeBsdfTransparent"), b.node("ShaderNodeMixShader")
+    b.link(diffuse.outputs[0], add.inputs[0])
+    b.link(translucent.outputs[0], add.inputs[1])
+    mix.inputs[0].default_value = 0.25
+    b.link(add.outputs[0], mix.inputs[1])
+    b.link(hole.outputs[0], mix.inputs[2])
+    b.surface(mix)
+    return b
+
+
+def shader(kind: str, **inputs: Any) -> Callable[[], Build]:
+    def build() -> Build:
+        b = Build()
+        node = b.node(kind, **inputs)
+        if hasattr(node, "distribution"):
+            node.distribution = "GGX"
+        b.surface(node)
+        return b
+
+    return build
 
 
 def principled(**inputs: Any) -> Callable[[], Build]:
@@ -214,6 +240,11 @@ MATERIALS: dict[str, Callable[[], Build]] = {
     "procedural": procedural,
     "unknown_shader": unknown_shader,
     "nothing": nothing,
+    "leaf": leaf,
+    "rough_glass": shader("ShaderNodeBsdfGlass", Color=RED, Roughness=0.5, IOR=1.4),
+    "refraction": shader("ShaderNodeBsdfRefraction", Color=RED, Roughness=0.0, IOR=1.4),
+    "rough_diffuse": shader("ShaderNodeBsdfDiffuse", Color=RED, Roughness=0.5),
+    "alpha": principled(Base_Color=RED, Specular_IOR_Level__or__Specular=0.0, Alpha=0.25),
     "principled_metal": principled(Base_Color=RED, Metallic=1.0, Roughness=0.5),
     "principled_glass": principled(
         Base_Color=(1.0, 1.0, 1.0, 1.0), Roughness=0.0, IOR=1.33, Transmission_Weight__or__Transmission=1.0
@@ -242,7 +273,7 @@ def translate() -> dict[str, Any]:
     facts: dict[str, Any] = {}
     for name, build in MATERIALS.items():
         notices = Notices()
-        facts[name] = {"is": repr(export_material(build().owner, "Thing", notices).material)}
+        facts[name] = {"is": repr(export_material(build().owner, "Thing", bpy.app.version, notices).material)}
         facts[name]["notices"] = [str(notice) for notice in notices.items]
     for name, build in WORLDS.items():
         notices = Notices()

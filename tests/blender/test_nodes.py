@@ -2,6 +2,7 @@
 """Shader nodes of real Blenders, as the engine's materials, world and fog; and the add-on's registration."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import pytest
 from hosts import Host
 
 from addon.export.color import mean_fresnel
-from addon.scene.description import Conductor, Glass, Lambert, Material, Mix
+from addon.scene.description import Add, Conductor, Glass, Lambert, Material, Mix, Translucent, Transparent
 
 RED = (0.8, 0.1, 0.1)
 
@@ -76,6 +77,26 @@ def test_principled_glass(facts: dict[str, Any]) -> None:
     assert isinstance(found, Glass)
     assert found.ior == pytest.approx(1.33)
     assert notices == []
+
+
+def test_what_passes_light(facts: dict[str, Any]) -> None:
+    expected: dict[str, Callable[[Any], bool]] = {
+        "leaf": lambda m: (
+            isinstance(m, Mix)
+            and m.weight == pytest.approx(0.75)
+            and isinstance(m.a, Add)
+            and (type(m.a.a), type(m.a.b)) == (Lambert, Translucent)
+            and m.b == Transparent((1.0, 1.0, 1.0))
+        ),
+        "rough_glass": lambda m: isinstance(m, Glass) and m.alpha == 0.25 and m.transmission == close(RED),
+        "refraction": lambda m: isinstance(m, Glass) and m.alpha == 0.0 and m.lobes == "refraction",
+        "rough_diffuse": lambda m: isinstance(m, Lambert) and m.roughness == 0.5,
+        "alpha": lambda m: isinstance(m, Mix) and m.weight == 0.75 and m.a == Transparent((1.0, 1.0, 1.0)),
+    }
+    for name, holds in expected.items():
+        found, notices = material(facts, name)
+        assert holds(found), found
+        assert notices == []
 
 
 def test_principled_default_is_told_to_be_approximate(facts: dict[str, Any]) -> None:

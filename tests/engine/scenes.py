@@ -118,6 +118,22 @@ def every_key(folder: Path) -> Scene:
             "old": {"type": "report_metal", "albedo": 0.2, "f0": 0.7, "alpha": 0.3, "emission": 0},
             "moon": {"type": "light", "radiance": [30, 2, 1]},
             "gone": {"type": "null"},
+            "leaf": {
+                "type": "add",
+                "a": {"type": "lambert", "albedo": 0.4, "roughness": 0.5, "facets": "multiple"},
+                "b": {"type": "mix", "weight": 0.5, "a": {"type": "translucent", "albedo": 0.3}, "b": "pane"},
+                "emission": emission,
+            },
+            "pane": {"type": "transparent", "transmittance": [0.9, 0.5, 0.1]},
+            "frosted": {
+                "type": "glass",
+                "ior": 1.4,
+                "alpha": 0.2,
+                "reflection": 0.9,
+                "transmission": [0.8, 0.9, 1],
+                "lobes": "both",
+                "emission": 0,
+            },
         },
         "meshes": {
             "hex": {"file": "hex.ply", "slots": [0, 1]},

@@ -143,9 +143,7 @@ def test_glass_reflects_and_refracts(eta: float, schlick: bool) -> None:
     assert np.abs(wi[:, :2] + wo[through, :2] / n).max(initial=0) <= 2 * ROUNDING / min(eta, 1)  # Snell
     assert np.abs((wi**2).sum(1) - 1).max(initial=0) <= 8 * ROUNDING / min(eta, 1) ** 2
     assert (wi[COSINES[through] > 0, 2] < 0).all()
-    assert (
-        relative_error(down.weight[through], np.full((int(through.sum()), 3), 1 / n**2)).max(initial=0) <= 4 * ROUNDING
-    )
+    assert (down.weight[through] == 1).all()  # of radiance / n^2
 
 
 def test_equal_indices_do_nothing() -> None:
@@ -158,7 +156,7 @@ def test_equal_indices_do_nothing() -> None:
 
 @pytest.mark.parametrize("eta", [1.0001, 1.33, 1.5, 10])
 def test_refraction_reverses(eta: float) -> None:
-    """Back through the same boundary: the old direction, the same probability, and weights that cancel."""
+    """Back through the same boundary: the old direction and the same probability."""
     wo = incident(np.linspace(0.05, 1, 200))
     into = fresnel.glass(wo, eta, 1 - 2.0**-24)
     back = fresnel.glass(into.wi * [1, 1, -1], single(1) / single(eta), 1 - 2.0**-24)
@@ -167,18 +165,16 @@ def test_refraction_reverses(eta: float) -> None:
     # cos_t of the way back has the condition eta^2 / cos.
     assert np.abs(-back.wi[:, 2] - wo[:, 2]).max() <= 8 * ROUNDING * eta**2 / 0.05
     assert np.abs(back.probability - into.probability).max() <= 64 * ROUNDING * eta**2
-    assert relative_error(back.weight * into.weight, np.ones((200, 3))).max() <= 8 * ROUNDING
 
 
 @pytest.mark.parametrize("cosine", [1.0, 0.4, 0.05])
 @pytest.mark.parametrize("eta", [1.5, 1 / 1.5])
 def test_choice_follows_fresnel(eta: float, cosine: float) -> None:
-    """A furnace of radiance n^2 on each side sends n^2 back; the reflected share is Fresnel's."""
+    """A furnace of the same radiance / n^2 on each side sends that back; the reflected share is Fresnel's."""
     n = 100_000
     u = sampling.uniform(7, n)[:, 0]
     s = fresnel.glass(np.broadcast_to(incident(np.array([cosine])), (n, 3)), eta, u)
-    value = np.where(s.transmitted == 1, eta**2, 1) * s.weight[:, 0]
-    assert np.abs(value - 1).max() <= 8 * ROUNDING
+    assert (s.weight == 1).all()
     exact = exact_fresnel(single([cosine]), double(single([eta])))[0]
     if exact == pytest.approx(1):
         assert not s.transmitted.any()

@@ -4,9 +4,13 @@
 
 #include "bsdf/baseline_metal.h"
 #include "bsdf/conductor.h"
+#include "bsdf/dielectric.h"
 #include "bsdf/lambert.h"
 #include "bsdf/mirror.h"
+#include "bsdf/oren_nayar.h"
 #include "bsdf/sample.h"
+#include "bsdf/translucent.h"
+#include "bsdf/transparent.h"
 
 #include <optional>
 #include <span>
@@ -14,7 +18,7 @@
 
 namespace glimmer {
 
-using Lobe = std::variant<Lambert, Mirror, Conductor, BaselineMetal>;
+using Lobe = std::variant<Lambert, Mirror, Conductor, BaselineMetal, Dielectric, Transparent, Translucent, OrenNayar>;
 
 struct WeightedLobe {
     Lobe lobe;
@@ -22,8 +26,13 @@ struct WeightedLobe {
     float probability; ///< probability of sampling it; sums to 1 over a Bsdf (see set_probabilities)
 };
 
-/// A view; the lobes live in the scene. May be empty (black).
-using Bsdf = std::span<const WeightedLobe>;
+/// A view; the lobes live in the scene or in an arena. May be empty (black).
+class Bsdf : public std::span<const WeightedLobe> {
+  public:
+    using std::span<const WeightedLobe>::span;
+    explicit Bsdf(std::span<const WeightedLobe> lobes) : std::span<const WeightedLobe>(lobes) {}
+    float eta = 1; ///< index on the other side / index on the side of wo: 1 but at the boundary of a dielectric
+};
 
 inline bool is_specular(const Lobe &lobe) {
     return std::visit([](const auto &l) { return is_specular(l); }, lobe);
@@ -34,48 +43,81 @@ inline Rgb albedo(const Lobe &lobe) {
 inline float max_value(const Lobe &lobe) {
     return std::visit([](const auto &l) { return max_value(l); }, lobe);
 }
-inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi) {
-    return std::visit([&](const auto &l) { return eval(l, wo, wi); }, lobe);
+/// Whether light passes to the other side.
+inline bool transmits(const Lobe &lobe) {
+    return std::holds_alternative<Dielectric>(lobe) || std::holds_alternative<Transparent>(lobe) ||
+           std::holds_alternative<Translucent>(lobe);
 }
-inline float pdf(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi) {
-    return std::visit([&](const auto &l) { return pdf(l, wo, wi); }, lobe);
+
+template <class T>
+inline constexpr bool kNeedsEta = std::is_same_v<T, Dielectric>;
+
+inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
+    return std::visit(
+        [&]<class T>(const T &l) {
+            if constexpr (kNeedsEta<T>)
+                return eval(l, wo, wi, eta);
+            else
+                return eval(l, wo, wi);
+        },
+        lobe);
 }
-inline std::optional<BsdfSample> sample(const Lobe &lobe, const Vec3f &wo, Vec2f u) {
-    return std::visit([&](const auto &l) { return sample(l, wo, u); }, lobe);
+inline float pdf(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
+    return std::visit(
+        [&]<class T>(const T &l) {
+            if constexpr (kNeedsEta<T>)
+                return pdf(l, wo, wi, eta);
+            else
+                return pdf(l, wo, wi);
+        },
+        lobe);
+}
+/// u_choice: for lobes that both reflect and transmit.
+inline std::optional<BsdfSample> sample(const Lobe &lobe, const Vec3f &wo, Vec2f u, float eta, float u_choice) {
+    return std::visit(
+        [&]<class T>(const T &l) {
+            if constexpr (kNeedsEta<T>)
+                return sample(l, wo, u, eta, u_choice);
+            else
+                return sample(l, wo, u);
+        },
+        lobe);
 }
 
 /// f |cos_i| of the smooth lobes.
-inline Rgb eval(Bsdf bsdf, const Vec3f &wo, const Vec3f &wi) {
+inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
     Rgb sum;
     for (const WeightedLobe &l : bsdf)
-        sum += eval(l.lobe, wo, wi) * l.weight;
+        sum += eval(l.lobe, wo, wi, bsdf.eta) * l.weight;
     return sum;
 }
 
 /// Density with which sample() returns wi from a smooth lobe.
-inline float pdf(Bsdf bsdf, const Vec3f &wo, const Vec3f &wi) {
+inline float pdf(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
     float sum = 0;
     for (const WeightedLobe &l : bsdf)
         if (l.probability > 0)
-            sum += pdf(l.lobe, wo, wi) * l.probability;
+            sum += pdf(l.lobe, wo, wi, bsdf.eta) * l.probability;
     return sum;
 }
 
 /// A direction of a smooth lobe comes with the weight of all smooth lobes, eval/pdf; one of a specular lobe with that
 /// lobe's own weight over its probability.
-inline std::optional<BsdfSample> sample(Bsdf bsdf, const Vec3f &wo, float u_lobe, Vec2f u) {
+inline std::optional<BsdfSample> sample(const Bsdf &bsdf, const Vec3f &wo, float u_lobe, Vec2f u) {
     const WeightedLobe *chosen = nullptr;
+    float u_choice = 0; // where u_lobe stands within the chosen lobe's share, 0 to 1
     int smooth = 0;
     for (const WeightedLobe &l : bsdf) {
         smooth += !is_specular(l.lobe);
         if (l.probability > 0 && u_lobe >= 0) {
             chosen = &l; // the last possible one stands if rounding lets u_lobe outlast the sum
+            u_choice = u_lobe / l.probability;
             u_lobe -= l.probability;
         }
     }
     if (!chosen)
         return std::nullopt;
-    std::optional<BsdfSample> s = sample(chosen->lobe, wo, u);
+    std::optional<BsdfSample> s = sample(chosen->lobe, wo, u, bsdf.eta, std::min(u_choice, 0x1.fffffep-1f));
     if (!s)
         return std::nullopt;
     if (s->specular || smooth == 1) {
@@ -86,26 +128,37 @@ inline std::optional<BsdfSample> sample(Bsdf bsdf, const Vec3f &wo, float u_lobe
     const float density = pdf(bsdf, wo, s->wi);
     if (!(density > 0))
         return std::nullopt;
-    return BsdfSample{s->wi, eval(bsdf, wo, s->wi) / density, density, false};
+    return BsdfSample{s->wi, eval(bsdf, wo, s->wi) / density, density, false, s->transmitted};
 }
 
 /// Delta lobes alone: light sampling finds nothing here.
-inline bool is_specular(Bsdf bsdf) {
+inline bool is_specular(const Bsdf &bsdf) {
     for (const WeightedLobe &l : bsdf)
         if (!is_specular(l.lobe))
             return false;
     return true;
 }
-inline bool has_specular(Bsdf bsdf) {
+inline bool has_specular(const Bsdf &bsdf) {
     for (const WeightedLobe &l : bsdf)
         if (is_specular(l.lobe))
             return true;
     return false;
 }
 
+inline bool transmits(const Bsdf &bsdf) {
+    for (const WeightedLobe &l : bsdf)
+        if (transmits(l.lobe))
+            return true;
+    return false;
+}
+/// The boundary of smooth glass and nothing else, which one number samples.
+inline bool is_smooth_dielectric(const Bsdf &bsdf) {
+    return bsdf.size() == 1 && std::holds_alternative<Dielectric>(bsdf[0].lobe) && is_specular(bsdf[0].lobe);
+}
+
 /// No f cos_o of any channel is larger: what bounds the light that a surface can throw at a point. Infinite with
 /// mirrors.
-inline float max_value(Bsdf bsdf) {
+inline float max_value(const Bsdf &bsdf) {
     float sum = 0;
     for (const WeightedLobe &l : bsdf)
         if (l.weight > 0)
@@ -114,7 +167,7 @@ inline float max_value(Bsdf bsdf) {
 }
 
 /// Reflectance for the albedo AOV: an approximation that knows no direction.
-inline Rgb albedo(Bsdf bsdf) {
+inline Rgb albedo(const Bsdf &bsdf) {
     Rgb sum;
     for (const WeightedLobe &l : bsdf)
         sum += albedo(l.lobe) * l.weight;

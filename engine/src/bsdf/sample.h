@@ -2,9 +2,14 @@
 // What sampling a BSDF returns, and the conventions all of bsdf/ keeps.
 //
 // Directions are in the local frame, unit length, and point away from the surface; z is the shading normal on the side
-// of wo, so cos_o = wo.z > 0 (the caller sees to it). eval is f |cos_i| and pdf is per solid angle of wi; both are 0
-// for wi below the surface and for specular lobes, whose sample is the only way in. A sample that would leave below the
-// surface is std::nullopt: it carries nothing, and stays in the count.
+// of wo, so cos_o = wo.z > 0 (the caller sees to it). eval is f |cos_i| and pdf is per solid angle of wi; wi.z < 0 is
+// light from the other side, which lobes that reflect alone know nothing of: both are 0 there, and for specular lobes,
+// whose sample is the only way in. A sample that would leave on a side that the lobe does not know is std::nullopt: it
+// carries nothing, and stays in the count.
+//
+// At the boundary of a dielectric eta is the index of refraction on the other side over that on the side of wo. Across
+// it radiance / n^2 is what is conserved, and values and weights are those of that quantity: a path that carries
+// radiance scales what it transmits by 1 / eta^2, one that carries flux scales nothing.
 #pragma once
 
 #include "math/vec.h"
@@ -13,9 +18,10 @@ namespace glimmer {
 
 struct BsdfSample {
     Vec3f wi;
-    Rgb weight;    ///< f |cos_i| / pdf
-    float pdf;     ///< per solid angle; the probability of the choice when specular
-    bool specular; ///< from a delta distribution
+    Rgb weight;               ///< f |cos_i| / pdf
+    float pdf;                ///< per solid angle; the probability of the choice when specular
+    bool specular;            ///< from a delta distribution
+    bool transmitted = false; ///< wi is on the other side
 };
 
 } // namespace glimmer

@@ -19,16 +19,16 @@ struct DielectricCrossing {
     Frame frame;
     Vec3f outgoing; ///< `back` in the frame
 
-    DielectricCrossing(const Interaction &surface, const Material &material, const Vec3f &direction,
+    DielectricCrossing(const Interaction &surface, float interior_ior, const Vec3f &direction,
                        const InteriorStack &around)
         : beyond(around), back(-direction), frame(surface.shading_normal) {
         const bool entering = dot(back, surface.geometric_normal) > 0;
         if (entering)
-            beyond.enter(surface.body, material.ior);
+            beyond.enter(surface.body, interior_ior);
         else
             beyond.leave(surface.body);
         // A ray that leaves a body which it never entered (an open mesh) comes from that body's index.
-        eta = beyond.ior() / (entering || !around.empty() ? around.ior() : material.ior);
+        eta = beyond.ior() / (entering || !around.empty() ? around.ior() : interior_ior);
         const float side = entering ? 1.0f : -1.0f;
         geometric = surface.geometric_normal * side;
         shading = surface.shading_normal * side;

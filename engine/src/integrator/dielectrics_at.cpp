@@ -30,13 +30,13 @@ InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x) {
             break;
         const Interaction surface = scene.interaction(ray, *hit);
         const Material &material = scene.materials[surface.material];
-        if (material.kind == MaterialKind::glass) {
+        if (material.interior_ior > 0) {
             if (dot(ray.direction, surface.geometric_normal) < 0)
                 entered.push_back(surface.body);
             else if (auto it = std::find(entered.begin(), entered.end(), surface.body); it != entered.end())
                 entered.erase(it);
             else
-                crossings.push_back({surface.body, material.ior});
+                crossings.push_back({surface.body, material.interior_ior});
         }
         ray.origin = surface.origin_towards(ray.direction);
     }

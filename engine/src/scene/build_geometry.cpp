@@ -11,7 +11,7 @@ namespace glimmer {
 /// The object's mesh, or a copy of it without the triangles whose material is absent; null when none is left.
 std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription &object) const {
     const Mesh &mesh = *object.mesh;
-    const auto null = [&](size_t slot) { return scene_.materials[object.materials[slot]].kind == MaterialKind::null; };
+    const auto null = [&](size_t slot) { return scene_.materials[object.materials[slot]].null; };
     size_t gone = 0;
     for (size_t s = 0; s < mesh.slot_count; ++s)
         gone += null(s);
@@ -38,7 +38,9 @@ std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription
 void SceneBuilder::use(uint32_t index) {
     const Material &material = scene_.materials[index];
     used_[index] = true;
-    scene_.has_dielectrics |= material.kind == MaterialKind::glass;
+    scene_.has_dielectrics |= material.interior_ior > 0;
+    scene_.has_transmission |= material.bounds.transmits;
+    scene_.has_transparency |= material.bounds.transparent;
     scene_.has_surfaces |= material.bounds.scatters;
     scene_.max_value = std::max(scene_.max_value, material.bounds.max_value);
 }
@@ -92,7 +94,7 @@ void SceneBuilder::build_geometry() {
     std::vector<Sphere> spheres;
     for (const SpheresDescription &group : description_.spheres) {
         const Material &material = scene_.materials[group.material];
-        if (material.kind == MaterialKind::null) {
+        if (material.null) {
             ++absent_objects_;
             continue;
         }

@@ -21,7 +21,7 @@ class SceneBuilder {
     void list_left_out();
 
   private:
-    void flatten(uint32_t material, float weight, std::vector<WeightedLobe> &lobes, Rgb &emission) const;
+    void flatten(uint32_t material, float weight, std::vector<WeightedLobe> &lobes, Material &out) const;
     void use(uint32_t material);
     std::shared_ptr<const Mesh> without_absent(const ObjectDescription &object) const;
     void add_sphere_lights(std::vector<Light> &lights) const;

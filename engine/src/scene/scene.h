@@ -42,10 +42,13 @@ class Scene {
     const Medium *outside() const { return medium ? &*medium : nullptr; }
     std::unique_ptr<Accel> accel;
     LightSet lights;
-    bool has_dielectrics = false, has_surfaces = false; ///< anything that scatters light
-    float max_value = 0;                                ///< largest of the materials in use (see MaterialBounds)
-    Vec3f bounds_center;                                ///< of all surfaces and finite lights
-    float bounds_radius = 0;                            ///< 0: there are none
+    bool has_surfaces = false;     ///< anything that scatters light
+    bool has_dielectrics = false;  ///< bodies of glass
+    bool has_transmission = false; ///< surfaces that scatter light to their other side; glass among them
+    bool has_transparency = false; ///< surfaces that let some light straight through
+    float max_value = 0;           ///< largest of the materials in use (see MaterialBounds)
+    Vec3f bounds_center;           ///< of all surfaces and finite lights
+    float bounds_radius = 0;       ///< 0: there are none
     std::vector<std::string> warnings, left_out;
     double build_seconds = 0;
     size_t bytes = 0; ///< of its large arrays and BVHs

@@ -10,9 +10,24 @@
 
 namespace glimmer {
 
-enum class MaterialType : uint8_t { lambert, mirror, conductor, glass, report_metal, mix, light, null, count };
+enum class MaterialType : uint8_t {
+    lambert,
+    mirror,
+    conductor,
+    glass,
+    report_metal,
+    mix,
+    light,
+    null,
+    add,
+    transparent,
+    translucent,
+    count
+};
 
 enum class DielectricFresnel : uint8_t { exact, schlick };
+enum class DielectricLobes : uint8_t { both, refraction };
+enum class FacetScattering : uint8_t { single, multiple };
 
 /// The values of the parameters of all types under the names that they have in scene files. material_schema.h says
 /// which of them a type has; the others keep their defaults and mean nothing.
@@ -27,6 +42,10 @@ struct MaterialDescription {
     Masking masking = Masking::Smith;
     float ior = 1;
     DielectricFresnel fresnel = DielectricFresnel::exact;
+    float roughness = 0;
+    FacetScattering facets = FacetScattering::single;
+    Rgb reflection{1}, transmission{1}, transmittance;
+    DielectricLobes lobes = DielectricLobes::both;
     float weight = 0;
     uint32_t a = 0, b = 0; ///< materials before this one
 };

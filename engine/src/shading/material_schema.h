@@ -20,11 +20,14 @@ inline constexpr std::array kMaterials = std::to_array<glimmer_material_info_t>(
     {"lambert", 1, "a diffuse surface"},
     {"mirror", 1, "a perfect mirror"},
     {"conductor", 1, "a rough metal: GGX, of a complex index of refraction or of two reflectances"},
-    {"glass", 0, "the boundary of a smooth dielectric: a closed surface; nested glass by containment"},
+    {"glass", 1, "the boundary of a dielectric: a closed surface; nested glass by containment"},
     {"report_metal", 1, "the student report's sum of a diffuse and a metallic lobe as printed: not energy conserving"},
     {"mix", 1, "a share of one material, the rest of another"},
-    {"light", 0, "an opaque black surface of constant outgoing radiance on both sides"},
-    {"null", 0, "not there"},
+    {"light", 1, "an opaque black surface of constant outgoing radiance on both sides"},
+    {"null", 1, "not there; as a part, straight through"},
+    {"add", 1, "two materials on top of each other, each at full strength"},
+    {"transparent", 1, "a part of light goes straight through, shadow rays included; with glass it enters the body"},
+    {"translucent", 1, "diffuse transmission: a diffuse lobe on the other side"},
 });
 static_assert(kMaterials.size() == size_t(MaterialType::count));
 
@@ -33,7 +36,8 @@ struct ParameterRow {
     MaterialType type;
     glimmer_parameter_info_t info;
     std::variant<float MaterialDescription::*, Rgb MaterialDescription::*, uint32_t MaterialDescription::*,
-                 Masking MaterialDescription::*, DielectricFresnel MaterialDescription::*>
+                 Masking MaterialDescription::*, DielectricFresnel MaterialDescription::*,
+                 DielectricLobes MaterialDescription::*, FacetScattering MaterialDescription::*>
         member;
 };
 
@@ -107,6 +111,9 @@ inline constexpr std::array kParameters = [] {
     using namespace schema;
     return std::to_array<ParameterRow>({
         color(T::lambert, "albedo", &D::albedo, kUnit, ""),
+        optional(number(T::lambert, "roughness", &D::roughness, kUnit, "of Oren and Nayar, in Fujii's form"), 0),
+        word(T::lambert, "facets", &D::facets, "single multiple", "facet model",
+             "whether rough facets send light on to each other"),
         emission(T::lambert),
 
         color(T::mirror, "reflectance", &D::reflectance, kUnit, ""),
@@ -123,6 +130,12 @@ inline constexpr std::array kParameters = [] {
 
         number(T::glass, "ior", &D::ior, kPositive, "index of refraction; radiance scales with its square"),
         word(T::glass, "fresnel", &D::fresnel, "exact schlick", "Fresnel function", ""),
+        optional(number(T::glass, "alpha", &D::alpha, kUnit, "GGX width; below 1e-4 smooth"), 0),
+        optional(color(T::glass, "reflection", &D::reflection, kUnit, "colour of what is reflected"), 1),
+        optional(color(T::glass, "transmission", &D::transmission, kUnit, "and of what is transmitted, each time"), 1),
+        word(T::glass, "lobes", &D::lobes, "both refraction", "choice of lobes",
+             "refraction alone refracts all light that can be refracted, and reflects none"),
+        emission(T::glass),
 
         color(T::report_metal, "albedo", &D::albedo, kUnit, ""),
         color(T::report_metal, "f0", &D::f0, kUnit, "reflectance at normal incidence"),
@@ -135,6 +148,16 @@ inline constexpr std::array kParameters = [] {
         emission(T::mix),
 
         color(T::light, "radiance", &D::radiance, kNonNegative, ""),
+
+        material(T::add, "a", &D::a, ""),
+        material(T::add, "b", &D::b, ""),
+        emission(T::add),
+
+        color(T::transparent, "transmittance", &D::transmittance, kUnit, ""),
+        emission(T::transparent),
+
+        color(T::translucent, "albedo", &D::albedo, kUnit, ""),
+        emission(T::translucent),
     });
 }();
 

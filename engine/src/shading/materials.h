@@ -16,7 +16,14 @@ namespace glimmer {
 struct Shading {
     Bsdf bsdf; ///< stands in the scene or in the arena that it was shaded into
     Rgb emission;
+    Rgb transparency;       ///< the part of light that goes straight through, as if there were no surface
+    float interior_ior = 0; ///< of the body that the surface bounds; 0: none
 };
+
+/// What depth, normals and indices show is the surface behind it.
+inline bool is_mostly_seen_through(const Shading &shading) {
+    return max_component(shading.transparency) > 0.5f;
+}
 
 class Materials {
   public:
@@ -33,7 +40,7 @@ class Materials {
     Shading shade(Interaction &surface, const View &view, ClosureArena &arena) const {
         static_cast<void>(view), static_cast<void>(arena);
         const Material &m = materials_[surface.material];
-        return {Bsdf(lobes_.data() + m.lobe_begin, m.lobe_count), m.emission};
+        return {Bsdf(lobes_.data() + m.lobe_begin, m.lobe_count), m.emission, m.transparency, m.interior_ior};
     }
 
   private:

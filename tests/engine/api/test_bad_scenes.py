@@ -103,7 +103,9 @@ GOLD = {"alpha": 0.1, "f0": (0.9, 0.7, 0.4)}
         ("report_metal", {**GREY, "f0": 0.5, "alpha": -1.0}, ("alpha",)),
         ("mix", {"weight": 0.5, "a": 0, "b": 99}, ("b: material 99 was not added before",)),
         ("mix", {"weight": 1.5, "a": 0, "b": 1}, ("weight",)),
-        ("mix", {"weight": 0.5, "a": 0, "b": 2}, ("b: glass cannot be a part of another material",)),
+        ("glass", {"ior": 1.5, "alpha": 2.0}, ("alpha",)),
+        ("glass", {"ior": 1.5, "lobes": "reflection"}, ("lobes", "allowed: both, refraction")),
+        ("transparent", {"transmittance": 1.5}, ("transmittance",)),
         ("mix", {"weight": 0.5, "a": 0}, ('the key "b" is missing',)),
     ],
 )

@@ -11,14 +11,15 @@ from numpy.typing import ArrayLike
 
 from tests.engine.probe.call import Array, call, empty, f32
 
-LAMBERT, MIRROR, CONDUCTOR, REPORT_METAL = range(4)
+LAMBERT, MIRROR, CONDUCTOR, REPORT_METAL, DIELECTRIC, TRANSPARENT, TRANSLUCENT, OREN_NAYAR = range(8)
 SMITH, SMITH_SEPARABLE, SCHLICK_GGX = range(3)
 NOTHING, SMOOTH, SPECULAR = range(3)
+TRANSMITTED = 4  # added to the last two
 
 
 class _Lobe(ctypes.Structure):
     _fields_ = (
-        *((name, ctypes.c_int32) for name in ("type", "use_f0", "masking")),
+        *((name, ctypes.c_int32) for name in ("type", "use_f0", "masking", "flag")),
         *((name, ctypes.c_float) for name in ("weight", "alpha")),
         *((name, ctypes.c_float * 3) for name in ("color", "eta", "k", "f0")),
     )
@@ -29,7 +30,8 @@ Colour = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Lobe:
-    """f0 given means Schlick; else eta and k."""
+    """f0 given means Schlick; else eta and k. Of a dielectric `eta` is (IOR, 0 for refraction alone, -), `color` its
+    transmission and `f0` its reflection; of Oren-Nayar `alpha` is the roughness, `flag` multiple scattering."""
 
     type: int
     weight: float = 1
@@ -39,15 +41,17 @@ class Lobe:
     eta: Colour = (1, 1, 1)
     k: Colour = (0, 0, 0)
     masking: int = SMITH
+    flag: int = 0
 
 
 def _lobes(lobes: Sequence[Lobe]) -> tuple[Any, Any]:
     out = (_Lobe * len(lobes))()
     for c, lobe in zip(out, lobes, strict=True):
-        c.type, c.use_f0, c.masking, c.weight, c.alpha = (
+        c.type, c.use_f0, c.masking, c.flag, c.weight, c.alpha = (
             lobe.type,
             lobe.f0 is not None,
             lobe.masking,
+            lobe.flag,
             lobe.weight,
             lobe.alpha,
         )
@@ -55,12 +59,12 @@ def _lobes(lobes: Sequence[Lobe]) -> tuple[Any, Any]:
     return out, np.uint64(len(lobes))
 
 
-def evaluate(lobes: Sequence[Lobe], wo: ArrayLike, wi: ArrayLike) -> tuple[Array, Array]:
-    """f |cos_i| (n, 3) and pdf (n)."""
+def evaluate(lobes: Sequence[Lobe], wo: ArrayLike, wi: ArrayLike, eta: float = 1) -> tuple[Array, Array]:
+    """f |cos_i| (n, 3) and pdf (n). eta: index on the other side / index on the side of wo."""
     directions = f32(wi)
     n = len(directions)
     f, pdf = empty(n, 3), empty(n)
-    call("probe_bsdf_eval", *_lobes(lobes), f32(wo), directions, np.uint64(n), f, pdf)
+    call("probe_bsdf_eval", *_lobes(lobes), np.float32(eta), f32(wo), directions, np.uint64(n), f, pdf)
     return f, pdf
 
 
@@ -68,18 +72,34 @@ class BsdfSamples(NamedTuple):
     wi: Array
     weight: Array
     pdf: Array
-    result: Array  # NOTHING, SMOOTH or SPECULAR; the others are 0 where there is nothing
+    result: Array  # NOTHING, SMOOTH or SPECULAR, and TRANSMITTED; the others are 0 where there is nothing
 
 
-def sample(lobes: Sequence[Lobe], wo: ArrayLike, u_lobe: Array, u: Array) -> BsdfSamples:
+def sample(lobes: Sequence[Lobe], wo: ArrayLike, u_lobe: Array, u: Array, eta: float = 1) -> BsdfSamples:
     n = len(u)
     out = BsdfSamples(empty(n, 3), empty(n, 3), empty(n), empty(n, kind=np.int32))
-    call("probe_bsdf_sample", *_lobes(lobes), f32(wo), np.ascontiguousarray(u_lobe), u, np.uint64(n), *out)
+    call(
+        "probe_bsdf_sample",
+        *_lobes(lobes),
+        np.float32(eta),
+        f32(wo),
+        np.ascontiguousarray(u_lobe),
+        u,
+        np.uint64(n),
+        *out,
+    )
     return out
 
 
 def describe(lobes: Sequence[Lobe]) -> tuple[Array, Array, bool, bool]:
     """Selection probabilities, albedo, is_specular, has_specular."""
     select, albedo, flags = empty(len(lobes)), empty(3), empty(2, kind=np.int32)
-    call("probe_bsdf_describe", *_lobes(lobes), select, albedo, flags)
+    call("probe_bsdf_describe", *_lobes(lobes), select, albedo, flags, empty(1))
     return select, albedo, bool(flags[0]), bool(flags[1])
+
+
+def max_value(lobes: Sequence[Lobe]) -> float:
+    """What no f cos_o exceeds."""
+    out = empty(1)
+    call("probe_bsdf_describe", *_lobes(lobes), empty(len(lobes)), empty(3), empty(2, kind=np.int32), out)
+    return float(out[0])

@@ -95,11 +95,11 @@ BAD = [
     Bad(
         ("materials", "wax", "alpha"),
         0.1,
-        'materials.wax: unknown key "alpha"; allowed here are type, albedo, emission',
+        'materials.wax: unknown key "alpha"; allowed here are type, albedo, roughness, facets, emission',
     ),
     Bad(("materials", "wax", "emission"), -0.1, "materials.wax.emission: -0.1 is not a number of 0 or more"),
     Bad(("materials", "wax", "emission"), 1e39, "materials.wax.emission: 1e+39 is too large; up to 3.4e38 is allowed"),
-    Bad(("materials", "glass", "emission"), 1, 'materials.glass: unknown key "emission"'),
+    Bad(("materials", "gone", "emission"), 1, 'materials.gone: unknown key "emission"'),
     Bad(("materials", "glass", "ior"), 0, "materials.glass.ior: 0 is not a number above 0"),
     Bad(("materials", "glass", "ior"), 1e-60, "materials.glass.ior: 1e-60 as a 32-bit float is not a number above 0"),
     Bad(
@@ -124,11 +124,15 @@ BAD = [
         "metall",
         'materials.plate.b: "metall" is not a material; materials are "plate", "metal",',
     ),
-    Bad(("materials", "plate", "b"), "moon", "materials.plate.b: neither part of a mix may be glass, light or null"),
     Bad(
         ("materials", "plate", "a"),
-        {"type": "glass", "ior": 1},
-        "materials.plate.a: neither part of a mix may be glass, light or null",
+        {"type": "glass", "ior": 1, "alpha": 2},
+        "materials.plate.a.alpha: 2 is not a number from 0 to 1",
+    ),
+    Bad(
+        ("materials", "plate", "a"),
+        {"type": "glass", "ior": 1, "lobes": "reflection"},
+        'materials.plate.a.lobes: "reflection" is not a choice of lobes; ',
     ),
     Bad(("materials", "plate", "b"), "plate", 'materials.plate.b: a mix is a part of itself: "plate" -> "plate"'),
     Bad(

@@ -35,7 +35,7 @@ float towards(const WeightedLobe &l, const Vec3f &wo, const Vec3f &to, float sin
 
 } // namespace
 
-float ris_target(const Scene &scene, const Interaction &surface, Bsdf bsdf, const Vec3f &wo, float sigma) {
+float ris_target(const Scene &scene, const Interaction &surface, const Bsdf &bsdf, const Vec3f &wo, float sigma) {
     if (is_specular(bsdf))
         return 0;
     const float side = std::copysign(1.0f, dot(wo, surface.geometric_normal));

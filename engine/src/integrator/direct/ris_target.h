@@ -12,6 +12,6 @@ namespace glimmer {
 /// a light counts at its centre; for glossy ones at the point of its sphere nearest to the mirrored ray, with the lobe
 /// widened by the light (representative points: Karis 2013, "Real Shading in Unreal Engine 4"). Lights at infinity
 /// count as if they came from all sides. 0 where nothing is rough.
-float ris_target(const Scene &scene, const Interaction &surface, Bsdf bsdf, const Vec3f &wo, float sigma);
+float ris_target(const Scene &scene, const Interaction &surface, const Bsdf &bsdf, const Vec3f &wo, float sigma);
 
 } // namespace glimmer

@@ -19,7 +19,7 @@ template <KernelFeatures F>
                                         Sampler &sampler, TraceContext &trace) {
     PathState<F> camera;
     camera.ray = ray;
-    if constexpr (F.dielectrics)
+    if constexpr (F.transmission)
         camera.interior = interior;
     return PathSample<F>(context, sampler, trace).run(camera);
 }

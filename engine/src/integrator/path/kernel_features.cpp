@@ -8,7 +8,8 @@ KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool s
     f.medium = scene.medium.has_value();
     f.medium_walks = f.medium && scene.medium->scatters() && !shares;
     f.surfaces = scene.has_surfaces;
-    f.dielectrics = scene.has_dielectrics;
+    f.transmission = scene.has_transmission;
+    f.transparency = scene.has_transparency;
     f.bvh = !scene.accel->without_bvh();
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         f.other_lights |= !is_emissive_sphere(scene.lights[i]);

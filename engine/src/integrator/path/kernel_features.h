@@ -16,9 +16,10 @@ namespace glimmer {
 
 struct KernelFeatures {
     bool medium = false;
-    bool medium_walks = false; ///< the medium scatters, and paths walk through it by themselves: no light vertices
-    bool surfaces = false;     ///< surfaces that scatter light, not only emissive spheres
-    bool dielectrics = false;
+    bool medium_walks = false;    ///< the medium scatters, and paths walk through it by themselves: no light vertices
+    bool surfaces = false;        ///< surfaces that scatter light, not only emissive spheres
+    bool transmission = false;    ///< surfaces that scatter light to their other side; glass among them
+    bool transparency = false;    ///< surfaces that let some light straight through
     bool bvh = false;             ///< there are meshes, or more spheres than are tried one by one
     bool other_lights = false;    ///< lights other than emissive spheres
     bool estimator_flags = false; ///< not all of EstimatorFlags are set
@@ -33,17 +34,18 @@ struct FeatureText {
     const char *name; ///< for benchmarks
     const char *left_out;
 };
-inline constexpr std::array<FeatureText, 7> kFeatureTexts{{
+inline constexpr std::array<FeatureText, 8> kFeatureTexts{{
     {&KernelFeatures::medium, "medium", "no fog: no distance sampling, no transmittance"},
     {&KernelFeatures::medium_walks, "walks in the medium", ""},
     {&KernelFeatures::surfaces, "surfaces", "no surface that scatters: no scattering at surfaces"},
-    {&KernelFeatures::dielectrics, "dielectrics", "no glass: no search for the bodies around the camera"},
+    {&KernelFeatures::transmission, "transmission", "no glass: no search for the bodies around the camera"},
+    {&KernelFeatures::transparency, "transparency", ""},
     {&KernelFeatures::bvh, "BVH", "a few spheres alone: no BVH"},
     {&KernelFeatures::other_lights, "other lights",
      "no lights but spheres that shine: no lamps, shining meshes, suns or sky"},
     {&KernelFeatures::estimator_flags, "estimator flags", ""},
 }};
-inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true};
+inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true};
 
 /// Whether a kernel with the features `has` can render what needs `needed`.
 constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {

@@ -15,7 +15,7 @@ template <KernelFeatures F>
 void PathSample<F>::sample_lights_along(const State &state, float end, const Medium &medium, bool split) {
     if (scene().lights.size() == 0)
         return;
-    const bool camera = state.depth == 0, several = state.seen_directly();
+    const bool camera = state.is_camera_segment(), several = state.seen_directly();
     const HenyeyGreenstein phase = medium.phase();
     const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
     float probability = 1;                  // of sampling at all
@@ -66,7 +66,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
 
 template <KernelFeatures F>
 void PathSample<F>::split_into_medium(const State &state, float end, const Medium &medium) {
-    const bool camera = state.depth == 0;
+    const bool camera = state.is_camera_segment();
     const Collision c = camera
                             ? medium.sample_collision(state.ray, state.beta, end, sampler_.next_1d(),
                                                       sampler_.stratified_bits(dimension(Dimension::medium_distance)))
@@ -101,7 +101,7 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
         pdf *= survival(next.beta, next.rr_scale, x, kRouletteScaleInMedium);
     if (!survives(next, x, kRouletteScaleInMedium))
         return;
-    const bool camera = state.depth == 0;
+    const bool camera = state.is_camera_segment();
     const PhaseSample s = medium.phase().sample(state.ray.direction,
                                                 camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction))
                                                        : sampler_.next_2d());
@@ -112,6 +112,7 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
                      s.pdf,
                      x,
                      {state.ray.origin, state.ray.direction, end, t, pdf}};
+    next.passed = {};
     ++next.depth;
     ++next.scatter;
     next.specular_depth = 0;

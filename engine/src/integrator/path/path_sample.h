@@ -125,6 +125,9 @@ class PathSample {
 
     void add_emission(const State &state, const Hit &hit, const Interaction &surface, const Rgb &emission,
                       const Medium *medium);
+    /// Whether the inside of an emissive sphere that is not opaque was met through its near side, from without. Light
+    /// sampling knows the near side alone.
+    bool is_far_side(const State &state, const Hit &hit, const Interaction &surface) const;
     void add_lamps(const State &state, float end, const Medium *medium);
     void add_infinity(const State &state, const Medium *medium);
     void add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium);
@@ -203,11 +206,27 @@ class PathSample {
     /// A surface as it is seen along a ray. All materials but dielectrics are two-sided: both normals are turned to the
     /// side that the ray comes from.
     struct OrientedSurface {
-        Frame frame;     ///< about the normal that it is shaded with
-        Vec3f geometric; ///< the true normal
-        Vec3f wo;        ///< back along the ray, in the frame
+        Frame frame;                                             ///< about the normal that it is shaded with
+        Vec3f geometric;                                         ///< the true normal
+        Vec3f wo;                                                ///< back along the ray, in the frame
+        float eta = 1;                                           ///< Bsdf::eta
+        bool bounds_interior = false;                            ///< what is transmitted enters a body or leaves it
+        [[no_unique_address]] typename State::Interior beyond{}; ///< the bodies around it then
     };
-    static std::optional<OrientedSurface> orient(const Interaction &surface, const Vec3f &direction);
+    static std::optional<OrientedSurface> orient(const State &state, const Interaction &surface,
+                                                 const Shading &shading);
+    /// Whether a sampled direction is on the side of the true surface that it claims: a shading normal may promise what
+    /// cannot be kept.
+    static bool is_on_side(const BsdfSample &s, const Vec3f &wi, const Vec3f &geometric);
+    /// The fraction of the light from wi that light vertices bring (bounded_fraction.h): none of what comes out of a
+    /// body.
+    static float vertex_fraction(const OrientedSurface &at, const Rgb &f_cos, const Vec3f &wi);
+    static void cross_boundary(State &state, const OrientedSurface &at);
+    /// Of light that arrives from the other side of the boundary of a body.
+    Rgb transmittance_beyond(const OrientedSurface &at, const Ray &ray, float distance) const;
+    /// Lets the path go straight on behind a surface that is not opaque, with a probability, or for certain where
+    /// nothing else is wanted of it. Else the state stands for what the surface scatters.
+    bool passes_through(State &state, const Interaction &surface, const Shading &shading, float distance, bool certain);
     /// The closures and the emission of a surface along a ray; they last until the next segment is followed.
     Shading shade(Interaction &surface, const Ray &ray) {
         return scene().materials.shade(surface, {-ray.direction}, arena_);
@@ -219,7 +238,7 @@ class PathSample {
     static float fraction_of(Lobes lobes, float bounded) {
         return lobes == Lobes::all ? 1 : lobes == Lobes::bounded ? bounded : 1 - bounded;
     }
-    void scatter_at_surface(State &state, const Interaction &surface, Bsdf bsdf, Lobes lobes = Lobes::all);
+    void scatter_at_surface(State &state, const Interaction &surface, const Shading &shading, Lobes lobes = Lobes::all);
     /// Where lights are sampled from. For an emissive sphere that is a point on the viewer's side for certain: rounding
     /// can put the position itself inside, where the sphere would light its own outside, or outside, where it would not
     /// light its inside.
@@ -229,13 +248,12 @@ class PathSample {
         return emissive_sphere ? surface.origin_towards(geometric) : surface.position;
     }
     /// Adds the light of the scene's lights at a surface, weighted against `branches` BSDF samples that go on.
-    void sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf,
+    void sample_lights_at(const State &state, const Interaction &surface, const Bsdf &bsdf,
                           const OrientedSurface &oriented_surface, uint32_t branches, Lobes lobes);
     /// Turns the path into one that leaves a rough lobe along wi, sampled with density `pdf` per solid angle.
     void leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi, float pdf);
-    /// Turns the path into one that leaves a mirror or a dielectric along wi.
+    /// Turns the path into one that leaves a mirror or a smooth dielectric along wi.
     void leave_specular(State &state, const Interaction &surface, const Vec3f &wi);
-    void cross_dielectric(State &state, const Interaction &surface, const Material &material);
 
     // Rays and roulette
 

@@ -71,7 +71,16 @@ struct PathState {
     EmissionMode emission_mode = EmissionMode::mis;
     uint32_t depth_since_first = 0; ///< vertices from the one that decided path_class on
     uint32_t specular_depth = 0;    ///< mirrors and dielectrics in a row up to here
-    [[no_unique_address]] std::conditional_t<F.dielectrics, InteriorStack, NoInterior> interior;
+    using Interior = std::conditional_t<F.transmission, InteriorStack, NoInterior>;
+    [[no_unique_address]] Interior interior;
+    /// Lengths since the last vertex, on segments that ended at a surface which the path went straight through.
+    [[no_unique_address]] std::conditional_t<F.transparency, float, Absent<2>> passed{};
+    float passed_length() const {
+        if constexpr (F.transparency)
+            return passed;
+        else
+            return 0;
+    }
 
     /// Finite on a compensation ray (vpl_gather.inl): it brings what the bounded connections of its first point leave
     /// out, so the next vertex counts no farther from there than this, in the medium and on a surface.
@@ -79,6 +88,8 @@ struct PathState {
     bool compensates() const { return F.medium && medium_compensation_radius < kInfinity; }
     bool splatted = false; ///< a compensation ray for which splats bring the part that no light vertex stands for
 
+    /// The camera's own ray up to the first surface: what its numbers are stratified for.
+    bool is_camera_segment() const { return depth == 0 && passed_length() == 0; }
     /// Whether the camera sees the segment, directly or by way of mirrors and dielectrics alone.
     bool seen_directly() const { return path_class == PathClass::none; }
 };

@@ -28,14 +28,23 @@ void PathSample<F>::follow(State &state) {
         if constexpr (F.surfaces)
             arena_.clear();
         shading = shade(*surface, state.ray);
-        if (state.seen_directly() && state.depth == 0)
+        const bool is_behind = F.transparency && (result_.hit || is_mostly_seen_through(shading));
+        if (state.seen_directly() && state.depth == 0 && !is_behind)
             note_first_surface(*surface);
         add_emission(state, *hit, *surface, shading.emission, medium);
     } else {
         add_infinity(state, medium);
     }
-    if (state.depth >= context_.limits.depth || state.emission_mode == EmissionMode::only)
+    const EmissionMode emission_mode = state.emission_mode;
+    if (state.depth >= context_.limits.depth || emission_mode == EmissionMode::only) {
+        const Ray segment = state.ray;
+        if (surface && passes_through(state, *surface, shading, end, true)) {
+            if (medium)
+                state.beta *= medium->transmittance(segment, end);
+            push(state);
+        }
         return;
+    }
     state.emission_mode = EmissionMode::mis;
 
     if (medium && medium->scatters() && state.scatter < context_.limits.scatter) {
@@ -60,8 +69,12 @@ void PathSample<F>::follow(State &state) {
         return;
     if (medium && state.seen_directly()) // absorption before everything dims the picture evenly: no reason to end paths
         state.rr_scale *= least_absorbed(*medium, end);
+    if (passes_through(state, *surface, shading, end, false)) {
+        state.emission_mode = emission_mode;
+        return push(state);
+    }
     if constexpr (F.surfaces)
-        scatter_at_surface(state, *surface, shading.bsdf);
+        scatter_at_surface(state, *surface, shading);
 }
 
 template <KernelFeatures F>
@@ -88,15 +101,26 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
     float weight = 1;
     if (hit.instance == kNone) {
         const uint32_t light = scene().lights.of_sphere(hit.primitive);
-        weight = state.depth == 0 ? context_.primary_weight : emission_mis_weight(state, light, {hit.t});
+        weight = state.is_camera_segment() ? context_.primary_weight : emission_mis_weight(state, light, {hit.t});
+        if constexpr (F.transparency)
+            if (state.emission_mode != EmissionMode::skip && is_far_side(state, hit, surface))
+                weight = 1;
     } else if (F.other_lights) {
         const auto [light, triangle] = scene().lights.of_triangle(hit.instance, hit.primitive);
         if (triangle != kNone) {
             const float cosine = std::abs(dot(surface.geometric_normal, state.ray.direction));
-            weight = emission_mis_weight(state, light, {hit.t, triangle, cosine});
+            weight = emission_mis_weight(state, light, {state.passed_length() + hit.t, triangle, cosine});
         }
     }
     add_emitted(state, emission * weight, hit.t, medium);
+}
+
+template <KernelFeatures F>
+bool PathSample<F>::is_far_side(const State &state, const Hit &hit, const Interaction &surface) const {
+    if (state.passed_length() == 0 || !(dot(state.ray.direction, surface.geometric_normal) > 0))
+        return false;
+    const Sphere &sphere = scene().accel->spheres()[hit.primitive];
+    return length_squared(Vec3d(state.previous.position) - sphere.center) > sphere.radius * sphere.radius;
 }
 
 template <KernelFeatures F>

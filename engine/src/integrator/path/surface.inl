@@ -23,14 +23,21 @@ void PathSample<F>::note_first_surface(const Interaction &surface) {
 }
 
 template <KernelFeatures F>
-auto PathSample<F>::orient(const Interaction &surface, const Vec3f &direction) -> std::optional<OrientedSurface> {
-    const Vec3f wo = -direction;
+auto PathSample<F>::orient(const State &state, const Interaction &surface, const Shading &shading)
+    -> std::optional<OrientedSurface> {
+    if constexpr (F.transmission)
+        if (shading.interior_ior > 0) {
+            const DielectricCrossing crossing(surface, shading.interior_ior, state.ray.direction, state.interior);
+            return OrientedSurface{crossing.frame, crossing.geometric, crossing.outgoing, crossing.eta,
+                                   true,           crossing.beyond};
+        }
+    const Vec3f wo = -state.ray.direction;
     const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
     const Vec3f geometric = surface.geometric_normal * side;
-    Vec3f shading = surface.shading_normal * side;
-    if (!is_above_horizon(shading, wo))
-        shading = geometric;
-    const Frame frame(shading);
+    Vec3f shading_normal = surface.shading_normal * side;
+    if (!is_above_horizon(shading_normal, wo))
+        shading_normal = geometric;
+    const Frame frame(shading_normal);
     const Vec3f wo_local = frame.to_local(wo);
     if (!(wo_local.z > 0))
         return std::nullopt;
@@ -38,22 +45,21 @@ auto PathSample<F>::orient(const Interaction &surface, const Vec3f &direction) -
 }
 
 template <KernelFeatures F>
-void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, Bsdf bsdf, Lobes lobes) {
-    const Material &material = scene().materials[surface.material];
-    if constexpr (F.dielectrics)
-        if (material.kind == MaterialKind::glass) {
-            if (lobes != Lobes::bounded)
-                cross_dielectric(state, surface, material);
-            return;
-        }
+void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface, const Shading &shading, Lobes lobes) {
+    Bsdf bsdf = shading.bsdf;
     if (bsdf.empty() || (lobes == Lobes::remainder && is_bounded(max_value(bsdf))))
         return;
-    const bool camera = state.depth == 0;
-    const auto oriented_surface = orient(surface, state.ray.direction);
+    const bool clear_glass = F.transmission && is_smooth_dielectric(bsdf); // one number samples it
+    if (clear_glass && lobes == Lobes::bounded)
+        return;
+    const bool camera = state.is_camera_segment();
+    const auto oriented_surface = orient(state, surface, shading);
     if (!oriented_surface)
         return;
-    const auto &[frame, geometric, wo_local] = *oriented_surface;
-    if (state.seen_directly())
+    bsdf.eta = oriented_surface->eta;
+    const Frame &frame = oriented_surface->frame;
+    const Vec3f &geometric = oriented_surface->geometric, &wo_local = oriented_surface->wo;
+    if (state.seen_directly() && !clear_glass)
         result_.albedo = albedo(bsdf);
 
     // A mirror could send each branch to another surface that branches in turn, so only one goes on from there.
@@ -63,19 +69,24 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
         sample_lights_at(state, surface, bsdf, *oriented_surface, branches, lobes);
 
     for (uint32_t k = 0; k < branches; ++k) {
-        const auto s = sample(
-            bsdf, wo_local, camera ? sampler_.stratified_1d(dimension(Dimension::branch_lobe, k)) : sampler_.next_1d(),
-            camera ? sampler_.stratified_2d(dimension(Dimension::branch_direction, k)) : sampler_.next_2d());
+        const auto s = clear_glass ? sample(bsdf, wo_local, sampler_.next_1d(), {})
+                                   : sample(bsdf, wo_local,
+                                            camera ? sampler_.stratified_1d(dimension(Dimension::branch_lobe, k))
+                                                   : sampler_.next_1d(),
+                                            camera ? sampler_.stratified_2d(dimension(Dimension::branch_direction, k))
+                                                   : sampler_.next_2d());
         if (!s || (s->specular && lobes == Lobes::bounded))
             continue;
         const Vec3f wi = normalize(frame.to_world(s->wi));
-        if (!(dot(wi, geometric) > 0)) // above the shading normal's horizon, but below the true surface
+        if (!is_on_side(*s, wi, geometric))
             continue;
         State next = state;
         next.beta *= s->weight * (1 / float(branches));
         next.rr_scale /= float(branches);
         if (lobes != Lobes::all && !s->specular)
-            next.beta *= fraction_of(lobes, bounded_fraction(s->weight * s->pdf, wo_local.z, s->wi.z));
+            next.beta *= fraction_of(lobes, vertex_fraction(*oriented_surface, s->weight * s->pdf, s->wi));
+        if (s->transmitted)
+            cross_boundary(next, *oriented_surface);
         if (!survives(next, surface.position, kRouletteScaleAtSurfaces) || (s->specular && !survives_specular(next)))
             continue;
         next.emission_mode = lit_by_ris && !s->specular ? EmissionMode::skip : EmissionMode::mis;
@@ -88,9 +99,62 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
 }
 
 template <KernelFeatures F>
+bool PathSample<F>::is_on_side(const BsdfSample &s, const Vec3f &wi, const Vec3f &geometric) {
+    const float cosine = dot(wi, geometric);
+    return F.transmission && s.transmitted ? cosine < 0 : cosine > 0;
+}
+
+template <KernelFeatures F>
+float PathSample<F>::vertex_fraction(const OrientedSurface &at, const Rgb &f_cos, const Vec3f &wi) {
+    if (F.transmission && at.bounds_interior && wi.z < 0)
+        return 0;
+    return bounded_fraction(f_cos, at.wo.z, std::abs(wi.z));
+}
+
+template <KernelFeatures F>
+void PathSample<F>::cross_boundary(State &state, const OrientedSurface &at) {
+    if constexpr (F.transmission)
+        if (at.bounds_interior) {
+            const float scale = 1 / (at.eta * at.eta);
+            state.beta *= scale;
+            state.rr_scale *= scale;
+            state.interior = at.beyond;
+        }
+}
+
+template <KernelFeatures F>
+Rgb PathSample<F>::transmittance_beyond(const OrientedSurface &at, const Ray &ray, float distance) const {
+    const Rgb scale(1 / (at.eta * at.eta));
+    const Medium *medium = F.medium ? at.beyond.medium(scene().outside()) : nullptr;
+    return medium ? medium->transmittance(ray, distance) * scale : scale;
+}
+
+template <KernelFeatures F>
+bool PathSample<F>::passes_through(State &state, const Interaction &surface, const Shading &shading, float distance,
+                                   bool certain) {
+    if constexpr (F.transparency) {
+        const float through = max_component(shading.transparency);
+        if (!(through > 0))
+            return false;
+        const float scattered = certain ? 0 : max_component(albedo(shading.bsdf));
+        const float share = through / (through + scattered);
+        if (share < 1 && sampler_.next_1d() >= share) {
+            state.beta *= 1 / (1 - share);
+            return false;
+        }
+        state.beta *= shading.transparency * (1 / share);
+        state.ray.origin = surface.origin_towards(state.ray.direction);
+        state.passed += distance;
+        return true;
+    }
+    return false;
+}
+
+template <KernelFeatures F>
 void PathSample<F>::leave_specular(State &state, const Interaction &surface, const Vec3f &wi) {
     state.ray = {surface.origin_towards(wi), wi};
     state.previous = {};
+    state.passed = {};
     state.depth_since_first += state.seen_directly() ? 0 : 1;
     ++state.depth;
 }
@@ -100,6 +164,7 @@ void PathSample<F>::leave_rough(State &state, const Interaction &surface, const 
                                 float pdf) {
     state.ray = {surface.origin_towards(wi), wi};
     state.previous = {};
+    state.passed = {};
     state.previous.kind = ScatterKind::surface;
     state.previous.several_lights = every_light(true) || state.seen_directly();
     state.previous.pdf = pdf;
@@ -113,33 +178,38 @@ void PathSample<F>::leave_rough(State &state, const Interaction &surface, const 
 
 template <KernelFeatures F>
 void PathSample<F>::light_surface(const State &state, const Interaction &surface, const Shading &shading) {
-    const Bsdf bsdf = shading.bsdf;
-    const auto oriented_surface = orient(surface, state.ray.direction);
+    Bsdf bsdf = shading.bsdf;
+    const auto oriented_surface = orient(state, surface, shading);
     if (is_specular(bsdf) || !oriented_surface)
         return;
+    bsdf.eta = oriented_surface->eta;
     sample_lights_at(state, surface, bsdf, *oriented_surface, 1, Lobes::all);
     const auto s = sample(bsdf, oriented_surface->wo, sampler_.stratified_1d(dimension(Dimension::candidate_lobe)),
                           sampler_.stratified_2d(dimension(Dimension::candidate_direction)));
     if (!s || s->specular)
         return;
     const Vec3f wi = normalize(oriented_surface->frame.to_world(s->wi));
-    if (!(dot(wi, oriented_surface->geometric) > 0))
+    if (!is_on_side(*s, wi, oriented_surface->geometric))
         return;
     State next = state;
     next.emission_mode = EmissionMode::only;
     next.beta *= s->weight;
+    if (s->transmitted)
+        cross_boundary(next, *oriented_surface);
     leave_rough(next, surface, oriented_surface->geometric, wi, s->pdf);
     if (may_meet_light(next.ray))
         push(next);
 }
 
 template <KernelFeatures F>
-void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, Bsdf bsdf,
+void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, const Bsdf &bsdf,
                                      const OrientedSurface &oriented_surface, uint32_t branches, Lobes lobes) {
-    const auto &[frame, geometric, wo] = oriented_surface;
+    const Frame &frame = oriented_surface.frame;
+    const Vec3f &geometric = oriented_surface.geometric, &wo = oriented_surface.wo;
     if (scene().lights.size() == 0)
         return;
-    const bool camera = state.depth == 0, several = state.seen_directly();
+    const bool camera = state.is_camera_segment(), several = state.seen_directly();
+    const bool both_sides = F.transmission && transmits(bsdf);
     const Medium *medium = medium_of(state);
     const Vec3f x = light_sampling_origin(surface, geometric);
     struct Candidate {
@@ -155,17 +225,22 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         const auto light =
             sample_light(choice.index, x,
                          camera ? sampler_.stratified_2d(dimension(Dimension::surface_light, i)) : sampler_.next_2d());
-        if (!light || !(dot(light->direction, geometric) > 0))
+        if (!light)
             continue;
         const Vec3f wi = frame.to_local(light->direction);
-        if (!(wi.z > 0))
+        const float side = dot(light->direction, geometric);
+        const bool beyond = both_sides && side < 0;
+        if (beyond ? !(wi.z < 0) : !(side > 0) || !(wi.z > 0))
             continue;
         const Rgb f_cos = eval(bsdf, wo, wi);
         Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
-        if (medium)
-            value *= medium->transmittance({x, light->direction}, light->distance);
+        const Ray to_light{x, light->direction};
+        if (F.transmission && beyond && oriented_surface.bounds_interior)
+            value *= transmittance_beyond(oriented_surface, to_light, light->distance);
+        else if (medium)
+            value *= medium->transmittance(to_light, light->distance);
         if (lobes != Lobes::all)
-            value *= fraction_of(lobes, bounded_fraction(f_cos, wo.z, wi.z));
+            value *= fraction_of(lobes, vertex_fraction(oriented_surface, f_cos, wi));
         if (!light->delta && !is_black(value))
             value *= balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
         if (!is_black(value))
@@ -186,23 +261,6 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (!is_black(arriving))
             sum += state.beta * arriving * (1 / tested);
     }
-}
-
-template <KernelFeatures F>
-void PathSample<F>::cross_dielectric(State &state, const Interaction &surface, const Material &material) {
-    const DielectricCrossing crossing(surface, material, state.ray.direction, state.interior);
-    const DielectricSample s = sample_dielectric(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
-    const Vec3f wi = crossing.to_world(s.wi);
-    if (!crossing.possible(wi, s.transmitted))
-        return;
-    state.beta *= s.weight;
-    state.rr_scale *= s.weight.r;
-    if (s.transmitted)
-        state.interior = crossing.beyond;
-    if (!survives(state, surface.position, kRouletteScaleAtSurfaces) || !survives_specular(state))
-        return;
-    leave_specular(state, surface, wi);
-    push(state);
 }
 
 } // namespace glimmer

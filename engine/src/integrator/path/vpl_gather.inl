@@ -27,7 +27,7 @@ void PathSample<F>::gather_along(const State &state, float end, const Medium &me
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
         at.path_class = state.seen_directly() ? PathClass::medium : state.path_class;
         const float roulette_scale = state.seen_directly() ? kRouletteScaleAtGathers : kRouletteScaleAtSurfaces;
-        if (!gather(at, float(n), state.depth == 0 ? c.t : 0, roulette_scale))
+        if (!gather(at, float(n), state.depth == 0 ? state.passed_length() + c.t : 0, roulette_scale))
             stack_.pop_back();
     }
 }
@@ -58,6 +58,7 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
         state.splatted =
             t > 0 && u_splat < splat_fraction(scene().camera.footprint(t), view, state.ray.direction, settings);
     state.previous = {};
+    state.passed = {};
     ++state.depth;
     ++state.scatter;
     state.specular_depth = 0;
@@ -72,6 +73,10 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
     const bool splatted = state.splatted;
     state.medium_compensation_radius = state.surface_compensation_radius = kInfinity;
     state.splatted = false;
+    if constexpr (F.transparency) // behind a surface that it went through, a ray may have nothing left to bring
+        if (!(std::max(medium_compensation_radius, surface_compensation_radius) > 0) &&
+            (splatted || is_bounded(scene().max_value)))
+            return;
     // Without a splat, the ray also brings the remainder of a BSDF that exceeds its bound, from any distance.
     const float reach = splatted || is_bounded(scene().max_value)
                             ? std::max(medium_compensation_radius, surface_compensation_radius)
@@ -95,9 +100,17 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
         if (!hit)
             return;
         Interaction surface = scene().interaction(state.ray, *hit);
+        arena_.clear();
+        const Shading shading = shade(surface, state.ray);
+        if (passes_through(state, surface, shading, hit->t, false)) {
+            state.medium_compensation_radius = medium_compensation_radius - hit->t;
+            state.surface_compensation_radius = surface_compensation_radius - hit->t;
+            state.splatted = splatted;
+            return push(state);
+        }
         const bool within = hit->t <= surface_compensation_radius;
         if (within || !splatted)
-            scatter_at_surface(state, surface, shade(surface, state.ray).bsdf,
+            scatter_at_surface(state, surface, shading,
                                !within    ? Lobes::remainder
                                : splatted ? Lobes::bounded
                                           : Lobes::all);

@@ -131,8 +131,9 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
         for (const Vec3f &q : points) {
             const Vec3f to_point = q - v.position;
             const float d2 = length_squared(to_point), d = std::sqrt(d2);
-            const float cosine = std::max(dot(to_point, v.geometric) / std::max(d, 1e-30f), 0.0f);
-            near += (cosine + tuning::kTargetCosineFloor) * std::exp(-sigma * d) / (d2 + clamp2);
+            const float cosine = dot(to_point, v.geometric) / std::max(d, 1e-30f);
+            near += (std::max(v.both_sides ? std::abs(cosine) : cosine, 0.0f) + tuning::kTargetCosineFloor) *
+                    std::exp(-sigma * d) / (d2 + clamp2);
         }
         powers[j] = v.reflected + tuning::kTargetPowerFloor * mean_component(v.power);
         targets[j] = near * powers[j];
@@ -154,7 +155,9 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
 
 Bsdf BlockVertices::shade(const SurfaceVertex &v) {
     Interaction surface = scene_.interaction({v.position, -v.incoming}, {0, v.instance, v.primitive, v.u, v.v});
-    return scene_.materials.shade(surface, {v.incoming}, closures_).bsdf;
+    Bsdf bsdf = scene_.materials.shade(surface, {v.incoming}, closures_).bsdf;
+    bsdf.eta = v.eta;
+    return bsdf;
 }
 
 struct BlockVertices::GatherQuery {
@@ -222,7 +225,7 @@ void BlockVertices::connect_surface(const GatherQuery &point, const DepthLimits 
         const SurfaceVertex &v = vertices[k].vertex;
         const Vec3f to_point = point.x - v.position;
         connections.surface_parts[k] = 0;
-        if (!(dot(to_point, v.geometric) > 0) || !v.depth.fits(room))
+        if ((!(dot(to_point, v.geometric) > 0) && !v.both_sides) || !v.depth.fits(room))
             continue;
         const float d2 = length_squared(to_point), d = std::sqrt(d2);
         const Connection c = connect(v, vertices[k].bsdf, to_point / d);
@@ -242,7 +245,8 @@ Rgb BlockVertices::correct_visibility(const GatherQuery &point, const Connection
         const float part = connections.surface_parts[k];
         if (part > 0 && left < part) {
             const SurfaceVertex &v = surface_[size_t(point.subset) * tuning::kSurfacePicks + k].vertex;
-            const Vec3f from = v.position + v.geometric * v.error, way = point.x - from;
+            const float side = std::copysign(v.error, dot(point.x - v.position, v.geometric));
+            const Vec3f from = v.position + v.geometric * side, way = point.x - from;
             const float d = length(way);
             return correct(connections, connections.surface_values[k], part, {from, way / d, d}, rays);
         }

@@ -20,7 +20,7 @@ inline float bounded_fraction(const Rgb &f_cos_i, float cos_o, float cos_i) {
 }
 
 /// The same for wo and wi in the frame of the shading normal.
-inline float bounded_fraction(Bsdf bsdf, const Vec3f &wo, const Vec3f &wi) {
+inline float bounded_fraction(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
     return bounded_fraction(eval(bsdf, wo, wi), wo.z, wi.z);
 }
 

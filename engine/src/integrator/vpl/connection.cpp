@@ -6,16 +6,20 @@
 
 namespace glimmer {
 
-Connection connect(const SurfaceVertex &vertex, Bsdf bsdf, const Vec3f &direction) {
-    const float cosine = dot(direction, vertex.geometric);
+Connection connect(const SurfaceVertex &vertex, const Bsdf &bsdf, const Vec3f &direction) {
+    const bool beyond = vertex.both_sides && dot(direction, vertex.geometric) < 0;
+    const Vec3f shading = beyond ? -vertex.shading : vertex.shading;
+    const Vec3f geometric = beyond ? -vertex.geometric : vertex.geometric;
+    const float cosine = dot(direction, geometric);
     if (!(cosine > 0))
         return {};
-    const Frame frame(is_above_horizon(vertex.shading, direction) ? vertex.shading : vertex.geometric);
+    const Frame frame(is_above_horizon(shading, direction) ? shading : geometric);
     const Vec3f incoming = frame.to_local(vertex.incoming), outgoing = frame.to_local(direction);
-    if (!(incoming.z > 0) || !(outgoing.z > 0))
+    if (!(beyond ? incoming.z < 0 : incoming.z > 0) || !(outgoing.z > 0))
         return {};
     const Rgb f_cos = eval(bsdf, outgoing, incoming);
-    return {f_cos * (cosine / dot(vertex.incoming, vertex.geometric)), bounded_fraction(f_cos, outgoing.z, incoming.z)};
+    return {f_cos * (cosine / dot(vertex.incoming, vertex.geometric)),
+            bounded_fraction(f_cos, outgoing.z, std::abs(incoming.z))};
 }
 
 } // namespace glimmer

@@ -15,7 +15,8 @@ struct Connection {
     float bounded = 1;
 };
 
-/// bsdf: of the vertex's material. direction: unit, away from the surface. All zero below the surface.
-Connection connect(const SurfaceVertex &vertex, Bsdf bsdf, const Vec3f &direction);
+/// bsdf: of the vertex's material. direction: unit, away from the surface. All zero on the other side
+/// of the surface, unless vertex.both_sides.
+Connection connect(const SurfaceVertex &vertex, const Bsdf &bsdf, const Vec3f &direction);
 
 } // namespace glimmer

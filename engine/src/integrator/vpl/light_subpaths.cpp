@@ -77,7 +77,7 @@ class LightSubpath {
             }
         }
         if (hit)
-            scatter_at_surface(path, *hit);
+            meet_surface(path, *hit, own_end - hit->t);
     }
 
     /// Splats what connections do not carry of the light that has just left a surface.
@@ -85,10 +85,22 @@ class LightSubpath {
         if (!(path.remainder > 0) || !is_in_picture(scene_, path.ray))
             return;
         SubpathSegment segment{path.ray, path.power, path.remainder};
-        ++rays_.rays;
-        if (const auto hit = scene_.accel->intersect(path.ray))
-            segment.ray.t_max = hit->t;
-        splat(scene_, segment, settings_, sampler_, rays_, out_.splats);
+        for (;;) { // and behind surfaces that let some of it straight through
+            ++rays_.rays;
+            const auto hit = scene_.accel->intersect(segment.ray);
+            if (hit)
+                segment.ray.t_max = hit->t;
+            splat(scene_, segment, settings_, sampler_, rays_, out_.splats);
+            if (!hit || !scene_.has_transparency)
+                return;
+            Interaction surface = scene_.interaction(segment.ray, *hit);
+            splat_arena_.clear();
+            const Rgb through = scene_.materials.shade(surface, {-segment.ray.direction}, splat_arena_).transparency;
+            if (is_black(through))
+                return;
+            segment.power *= through * scene_.medium->transmittance(segment.ray, hit->t);
+            segment.ray = {surface.origin_towards(segment.ray.direction), segment.ray.direction};
+        }
     }
 
     /// The weight window: the subpath's power times the importance of x, relative to where the subpath started. Below 1
@@ -130,13 +142,34 @@ class LightSubpath {
         });
     }
 
-    void scatter_at_surface(Branch &path, const Hit &hit) {
+    /// t_max: how far behind the surface the light would still be its ball light's.
+    void meet_surface(Branch &path, const Hit &hit, float t_max) {
         Interaction surface = scene_.interaction(path.ray, hit);
-        const Material &material = scene_.materials[surface.material];
-        if (material.kind == MaterialKind::glass)
-            return cross_dielectric(path, surface, material);
         arena_.clear();
-        const Bsdf bsdf = scene_.materials.shade(surface, {-path.ray.direction}, arena_).bsdf;
+        const Shading shading = scene_.materials.shade(surface, {-path.ray.direction}, arena_);
+        if (const float through = max_component(shading.transparency); through > 0) {
+            const float share = through / (through + max_component(albedo(shading.bsdf)));
+            if (share == 1 || sampler_.next_1d() < share) {
+                path.power *= shading.transparency * (1 / share);
+                path.ray = {surface.origin_towards(path.ray.direction), path.ray.direction, t_max};
+                --path.depth.depth; // no vertex: the next segment counts its end again
+                branches_.push_back(path);
+                return;
+            }
+            path.power *= 1 / (1 - share);
+        }
+        if (is_smooth_dielectric(shading.bsdf))
+            return cross_dielectric(path, surface, shading);
+        scatter_at_surface(path, surface, shading);
+    }
+
+    void scatter_at_surface(Branch &path, const Interaction &surface, const Shading &shading) {
+        Bsdf bsdf = shading.bsdf;
+        std::optional<DielectricCrossing> crossing; // of the boundary of a body
+        if (shading.interior_ior > 0) {
+            crossing.emplace(surface, shading.interior_ior, path.ray.direction, path.interior);
+            bsdf.eta = crossing->eta;
+        }
         const float weight = bsdf.empty() ? 0 : apply_window(path, surface.position);
         if (weight == 0)
             return;
@@ -153,32 +186,76 @@ class LightSubpath {
                         surface.primitive,
                         surface.u,
                         surface.v,
+                        bsdf.eta,
+                        transmits(bsdf) && !crossing,
                         path.depth};
         if (!(dot(incoming, v.geometric) > 0))
             return;
         if (!is_specular(bsdf))
             out_.surface.push_back(v);
-        if (path.interior.medium(scene_.outside()) && !is_bounded(max_value(bsdf))) {
+        const auto scatter = [&](Branch &branch) {
+            return transmits(bsdf) ? scatter_to_both_sides(branch, v, surface, bsdf, crossing)
+                                   : reflect(branch, v, surface, bsdf);
+        };
+        const Medium *outside = scene_.outside();
+        if ((path.interior.medium(outside) || (outside && crossing)) && !is_bounded(max_value(bsdf))) {
             const auto directions =
                 uint32_t(float(tuning::kSplatDirections) * std::min(weight, tuning::kMostSplatWeight));
             for (uint32_t k = 0; k < directions; ++k) {
                 Branch part = path;
                 part.power *= 1 / float(directions);
-                if (reflect(part, v, surface, bsdf))
+                if (scatter(part) && part.interior.medium(outside))
                     splat_remainder(part);
             }
         }
         split(path, weight, [&](Branch next) {
-            if (reflect(next, v, surface, bsdf))
+            if (scatter(next))
                 branches_.push_back(next);
         });
+    }
+
+    /// As reflect(), where light passes to the other side as well. The frame that a direction belongs to is the one
+    /// that a camera path from there would use: each of the two is tried with the same probability, and a sample counts
+    /// only if it belongs to the frame that it was drawn in.
+    bool scatter_to_both_sides(Branch &path, const SurfaceVertex &v, const Interaction &surface, const Bsdf &bsdf,
+                               const std::optional<DielectricCrossing> &crossing) {
+        const bool bent = !(v.shading == v.geometric);
+        bool about_shading = is_above_horizon(v.shading, v.incoming);
+        if (bent && about_shading) {
+            about_shading = sampler_.next_1d() < 0.5f;
+            path.power *= 2;
+        }
+        const Frame frame(about_shading ? v.shading : v.geometric);
+        const Vec3f incoming = frame.to_local(v.incoming);
+        if (!(incoming.z > 0))
+            return false;
+        const auto s = sample(bsdf, incoming, sampler_.next_1d(), sampler_.next_2d());
+        if (!s)
+            return false;
+        const Vec3f direction = normalize(frame.to_world(s->wi));
+        const float side = s->transmitted ? -1.0f : 1.0f;
+        if (!(dot(direction, v.geometric) * side > 0) ||
+            (bent && is_above_horizon(v.shading * side, direction) != about_shading))
+            return false;
+        if (s->specular && (path.from_delta || !survives_specular(path)))
+            return false;
+        path.power *= s->weight;
+        if (bent)
+            path.power *= scale_of_flux(frame.z, v.geometric, v.incoming, direction, std::abs(s->wi.z));
+        if (s->transmitted && crossing)
+            path.interior = crossing->beyond;
+        if (!s->specular)
+            path.specular_depth = 0;
+        const bool connected = !s->specular && (!s->transmitted || v.both_sides);
+        leave(path, surface, direction, connected ? 1 - connect(v, bsdf, direction).bounded : 1);
+        return true;
     }
 
     /// Samples the adjoint of what a camera path does, f |w_in.ns| / |w_in.ng| * |w_out.ng|, with the frame that a
     /// viewer along w_out would use (Veach 1997, 5.3). Where the normals differ, the frame of w_in has no samples for
     /// some directions that the camera can see, so a share of the samples is drawn about the geometric normal. False
     /// where the subpath ends.
-    bool reflect(Branch &path, const SurfaceVertex &v, const Interaction &surface, Bsdf bsdf) {
+    bool reflect(Branch &path, const SurfaceVertex &v, const Interaction &surface, const Bsdf &bsdf) {
         const bool bent = !(v.shading == v.geometric), about_shading = is_above_horizon(v.shading, v.incoming);
         const Frame frame(about_shading ? v.shading : v.geometric);
         const Vec3f incoming = frame.to_local(v.incoming);
@@ -259,28 +336,32 @@ class LightSubpath {
         return true;
     }
 
-    void cross_dielectric(Branch &path, const Interaction &surface, const Material &material) {
+    void cross_dielectric(Branch &path, const Interaction &surface, const Shading &shading) {
         if (path.from_delta || !survives_specular(path))
             return;
-        DielectricCrossing crossing(surface, material, path.ray.direction, path.interior);
+        DielectricCrossing crossing(surface, shading.interior_ior, path.ray.direction, path.interior);
         const bool bent = !(crossing.shading == crossing.geometric);
         if (bent && crossing.about_shading && crossing.may_leave_beneath_horizon()) {
             const bool on_shading = sampler_.next_1d() < 1 - tuning::kTrueDielectricShare;
             crossing.shade(on_shading);
             path.power *= 1 / (on_shading ? 1 - tuning::kTrueDielectricShare : tuning::kTrueDielectricShare);
         }
-        const DielectricSample s =
-            sample_dielectric(crossing.outgoing, crossing.eta, material.schlick, sampler_.next_1d());
-        const Vec3f direction = crossing.to_world(s.wi);
-        if (!crossing.possible(direction, s.transmitted))
+        Bsdf bsdf = shading.bsdf;
+        bsdf.eta = crossing.eta;
+        const auto s = sample(bsdf, crossing.outgoing, sampler_.next_1d(), {});
+        if (!s)
             return;
+        const Vec3f direction = crossing.to_world(s->wi);
+        if (!crossing.possible(direction, s->transmitted))
+            return;
+        path.power *= s->weight;
         if (bent) {
-            if (!crossing.holds_backwards(direction, s.transmitted) || !(dot(crossing.back, crossing.geometric) > 0))
+            if (!crossing.holds_backwards(direction, s->transmitted) || !(dot(crossing.back, crossing.geometric) > 0))
                 return;
             path.power *=
-                scale_of_flux(crossing.frame.z, crossing.geometric, crossing.back, direction, std::abs(s.wi.z));
+                scale_of_flux(crossing.frame.z, crossing.geometric, crossing.back, direction, std::abs(s->wi.z));
         }
-        if (s.transmitted)
+        if (s->transmitted)
             path.interior = crossing.beyond;
         leave(path, surface, direction, 1);
         if (path.interior.medium(scene_.outside()))
@@ -294,7 +375,8 @@ class LightSubpath {
     Sampler &sampler_;
     TraceContext &rays_;
     LightVertices &out_;
-    ClosureArena arena_; ///< of the vertex where the path is
+    ClosureArena arena_;       ///< of the vertex where the path is
+    ClosureArena splat_arena_; ///< of the surfaces that splats pass
     std::vector<Branch> branches_;
     float target_ = 1;
 };
@@ -336,9 +418,12 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
     for (uint32_t i = 0; i < shares.size(); ++i) {
         sum += shares[i] * settings.paths;
         const LightBound &b = lights.bound(i);
-        // A sphere shines towards the side that the camera is on; towards both where camera rays may start on both.
+        // A sphere shines towards the side that the camera is on; towards both where camera rays may start on both, and
+        // where what shines inwards comes out again.
+        const auto *sphere = std::get_if<SphereLight>(&lights[i]);
+        const bool clear = sphere && scene.materials.bounds(scene.sphere_materials[sphere->index]).transparent;
         const float distance = length(b.center - camera.center);
-        const bool both = is_emissive_sphere(lights[i]) && std::abs(distance - b.radius) <= camera.radius;
+        const bool both = sphere && (clear || std::abs(distance - b.radius) <= camera.radius);
         for (; cursor < sum && !rays.stopped(); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
             const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;

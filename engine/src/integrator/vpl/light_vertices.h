@@ -57,6 +57,8 @@ struct SurfaceVertex {
     float reflected;              ///< mean component of power * albedo, the worth of the vertex when picks are drawn
     uint32_t instance, primitive; ///< with u, v the place on the surface, from which a pick is shaded
     float u, v;
+    float eta;       ///< Bsdf::eta as seen from the side of `incoming`
+    bool both_sides; ///< light leaves on the other side as well, into the same medium
     VertexDepth depth;
 };
 
