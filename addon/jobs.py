@@ -83,8 +83,8 @@ def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> J
             export_settings(scene, enabled, engine.is_preview),
         )
 
-    exported = export_scene(depsgraph, camera_view, bpy.app.version, BULK_READERS)
     path = export_request.pop("path", None) if not engine.is_preview else None
+    exported = export_scene(depsgraph, camera_view, bpy.app.version, BULK_READERS, constants_only=path is not None)
     if path is not None:
         return ExportJob(exported, path)
     return RenderJob(exported, enabled, depsgraph.view_layer_eval.name)

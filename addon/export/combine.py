@@ -9,30 +9,27 @@ from ..scene.description import (
     BLACK,
     WHITE,
     Add,
+    Color,
     Lambert,
     Light,
     Material,
     Mirror,
     Mix,
     Null,
-    Rgb,
     Surface,
     Translucent,
     Transparent,
 )
-from .nodes import lerp
+from .translate.values import Number, added, clamped, difference, lerp
 
 
-def add_colors(a: Rgb, b: Rgb) -> Rgb:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def mixed(weight: float, a: Surface, b: Surface) -> Surface:
+def mixed(weight: Number, a: Surface, b: Surface) -> Surface:
     """weight of a and the rest of b. The emission of both goes to the mix."""
-    if weight <= 0.0:
-        return b
-    if weight >= 1.0:
-        return a
+    if isinstance(weight, float):
+        if weight <= 0.0:
+            return b
+        if weight >= 1.0:
+            return a
     emission = lerp(b.emission, a.emission, weight)
     a, b = replace(a, emission=BLACK), replace(b, emission=BLACK)
     if isinstance(a, Lambert) and isinstance(b, Lambert) and a.roughness == b.roughness == 0.0:
@@ -48,9 +45,9 @@ def mixed(weight: float, a: Surface, b: Surface) -> Surface:
     return Mix(weight, a, b, emission)
 
 
-def mix(factor: float, a: Material, b: Material) -> Material:
+def mix(factor: Number, a: Material, b: Material) -> Material:
     """(1 - factor) a + factor b."""
-    factor = min(max(factor, 0.0), 1.0)
+    factor = clamped(factor)
     if factor == 0.0 or a == b:
         return a
     if factor == 1.0:
@@ -59,12 +56,12 @@ def mix(factor: float, a: Material, b: Material) -> Material:
     if isinstance(a, Light) and isinstance(b, Light):
         return Light(emission)
     # What shines and nothing else reflects nothing: a black surface that emits.
-    return replace(mixed(1.0 - factor, _scattering(a), _scattering(b)), emission=emission)
+    return replace(mixed(difference(1.0, factor), _scattering(a), _scattering(b)), emission=emission)
 
 
 def add(a: Material, b: Material) -> Material:
     """a + b."""
-    emission = add_colors(_radiance(a), _radiance(b))
+    emission = added(_radiance(a), _radiance(b))
     if isinstance(a, Light) and isinstance(b, Light):
         return Light(emission)
     if isinstance(a, Light) or isinstance(b, Light):
@@ -75,7 +72,7 @@ def add(a: Material, b: Material) -> Material:
     return Add(_scattering(a), _scattering(b), emission)
 
 
-def _radiance(material: Material) -> Rgb:
+def _radiance(material: Material) -> Color:
     return material.radiance if isinstance(material, Light) else getattr(material, "emission", BLACK)
 
 

@@ -29,10 +29,44 @@ class Placed:
 
     item: bpy.types.Object
     matrices: list[Floats] = field(default_factory=list)  # each (4, 4) or (n, 4, 4)
+    random_ids: list[int] | None = None  # Blender's, one a matrix; None: not asked for
 
     def all_matrices(self) -> Floats:
         """(n, 4, 4)"""
         return np.concatenate([np.asarray(m, np.float64).reshape(-1, 4, 4) for m in self.matrices])
+
+    def randoms(self) -> Floats:
+        """(n,) of 0 to 1: what an Object Info node knows as Random. Those of a bulk read are of our own making."""
+        own = name_hash(self.item.name)
+        ids = self.random_ids
+        if ids is None:
+            count = len(self.all_matrices())
+            ids = [hash_pair(own, i) for i in range(count)]
+        return np.array(ids, np.float64) / 0xFFFFFFFF
+
+
+def name_hash(name: str) -> int:
+    """Blender's of an object's name, from which the Random of an Object Info node comes."""
+    result = 0
+    for byte in name.encode():
+        result = (result * 37 + byte) & 0xFFFFFFFF
+    return result
+
+
+def hash_pair(x: int, y: int) -> int:
+    """Bob Jenkins' lookup3 of two 32-bit words."""
+
+    def rot(v: int, bits: int) -> int:
+        return (v << bits | v >> (32 - bits)) & 0xFFFFFFFF
+
+    c = 0xDEADBEEF + (2 << 2) + 13
+    a, b = (c + x) & 0xFFFFFFFF, (c + y) & 0xFFFFFFFF
+    for bits in (14, 11, 25, 16, 4, 14, 24):
+        # The three words take turns: c by b, a by c, b by a.
+        c = ((c ^ b) - rot(b, bits)) & 0xFFFFFFFF
+        a, b, c = b, c, a
+    # After seven turns the last word that was changed stands in b.
+    return b
 
 
 def placed_objects(
@@ -55,7 +89,7 @@ def placed_objects(
                 for prototype, matrices in found:
                     bulk.setdefault(prototype.as_pointer(), Placed(prototype)).matrices.append(matrices)
         if not item.is_instancer or getattr(item, show_instancer):
-            yield Placed(item, [np.array(item.matrix_world, np.float64)])
+            yield Placed(item, [np.array(item.matrix_world, np.float64)], [hash_pair(name_hash(item.name), 0)])
     yield from bulk.values()
     if by_loop:
         yield from _by_loop(depsgraph, by_loop)
@@ -69,6 +103,7 @@ def _may_have_instances(item: bpy.types.Object) -> bool:
 def _by_loop(depsgraph: bpy.types.Depsgraph, instancers: set[int]) -> Iterator[Placed]:
     """The slow way. One mesh may be shown by a temporary object per instance, so they are grouped by their data."""
     matrices: dict[tuple[int, int], list[Floats]] = {}
+    random_ids: dict[tuple[int, int], list[int]] = {}
 
     def key(item: Any) -> tuple[int, int]:
         data = item.data
@@ -77,11 +112,12 @@ def _by_loop(depsgraph: bpy.types.Depsgraph, instancers: set[int]) -> Iterator[P
     for instance in depsgraph.object_instances:
         if instance.is_instance and instance.parent.original.as_pointer() in instancers:
             matrices.setdefault(key(instance.object), []).append(np.array(instance.matrix_world, np.float64))
+            random_ids.setdefault(key(instance.object), []).append(instance.random_id & 0xFFFFFFFF)
     # The objects of the first loop are gone, so those of a second are handed out, each once.
     for instance in depsgraph.object_instances:
         if instance.is_instance and instance.parent.original.as_pointer() in instancers:
             found = matrices.pop(key(instance.object), None)
             if found is not None:
-                yield Placed(instance.object, found)
+                yield Placed(instance.object, found, random_ids[key(instance.object)])
                 if not matrices:
                     return

@@ -27,9 +27,12 @@ from ..scene.description import (
     Transparent,
 )
 from ..scene.problems import Notices, place
+from ..scene.program import Op, TooLargeError, programmed
 from .combine import add, mix
-from .nodes import Input, Nodes, Source, scaled
+from .nodes import Input, Nodes, Source
 from .principled import principled
+from .translate.image import Images
+from .translate.values import Number, Triple, clamped, clamped_color, op, scaled, squared, triple
 
 if TYPE_CHECKING:
     import bpy
@@ -45,16 +48,29 @@ DEFAULT_SURFACE = Lambert((0.8, 0.8, 0.8))
 
 
 def export_material(
-    material: bpy.types.Material | None, object_name: str, version: tuple[int, ...], notices: Notices
+    material: bpy.types.Material | None,
+    object_name: str,
+    version: tuple[int, ...],
+    notices: Notices,
+    images: Images | None = None,
+    constants_only: bool = False,
 ) -> NamedMaterial:
-    """object_name: the first object that uses it, for notices. version: Blender's."""
+    """object_name: the first object that uses it, for notices. version: Blender's. constants_only: what varies becomes a
+    constant."""
     if material is None:
         return NamedMaterial("default", DEFAULT_SURFACE)
     where = place(object_name, material.name)
     if not material.use_nodes or material.node_tree is None:
         return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
-    result = _Shaders(material, where, version, notices).output()
-    return NamedMaterial(material.name_full, result, material.pass_index)
+    shaders = _Shaders(material, where, version, notices, images)
+    shaders.nodes.constants_only = constants_only
+    result = shaders.output()
+    try:
+        (named, normal), program = programmed((result, shaders.normal))
+    except TooLargeError as error:
+        notices.add(where, f"its nodes cannot be rendered, since {error}; its viewport colour is used")
+        return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
+    return NamedMaterial(material.name_full, named, material.pass_index, program, normal)
 
 
 def viewport_surface(material: bpy.types.Material) -> Surface:
@@ -76,8 +92,17 @@ def _clipped(color: Rgb) -> Rgb:
 class _Shaders:
     """The shader nodes of one material."""
 
-    def __init__(self, material: bpy.types.Material, where: str, version: tuple[int, ...], notices: Notices) -> None:
-        self.nodes = Nodes(material.node_tree, where, notices)
+    def __init__(
+        self,
+        material: bpy.types.Material,
+        where: str,
+        version: tuple[int, ...],
+        notices: Notices,
+        images: Images | None = None,
+    ) -> None:
+        self.nodes = Nodes(material.node_tree, where, notices, images)
+        self.nodes.material_index = material.pass_index
+        self.normal: Op | None = None  # of the surface, where it is not the mesh's
         self.viewport_color = _rgb(material.diffuse_color)
         self.where = where
         self.version = version
@@ -113,40 +138,61 @@ class _Shaders:
         translate = _SHADERS.get(source.node.bl_idname)
         if translate is None:
             return self._unknown(source)
-        if self.nodes.is_linked(source.node, "Normal"):
-            self.nodes.notice(source.node, "bump and normal maps are not supported; the surface is rendered smooth")
+        self._bend_normal(source)
         return translate(self, source)
+
+    def _bend_normal(self, source: Source) -> None:
+        """A surface has one normal: that of the first of its shaders that has one of its own."""
+        socket = source.node.inputs.get("Normal")
+        if socket is None or self.nodes.is_free(source, socket):
+            return
+        if self.nodes.constants_only:
+            self.nodes.notice(source.node, "bump and normal maps are left out; the surface is smooth")
+            return
+        normal = triple(self.nodes.socket_value(source, socket))
+        if self.normal is None:
+            self.normal = normal if isinstance(normal, Op) else op("combine", *normal)
+        elif normal is not self.normal:
+            self.nodes.notice(source.node, "shaders of one material cannot have several normals; the first is used")
 
     def _unknown(self, source: Source) -> Material:
         node = source.node
-        color = _clipped(self.viewport_color)
+        color: Triple = _clipped(self.viewport_color)
         words = "the material's viewport colour"
         if node.inputs.get("Color") is not None:
             color, words = self.albedo(source), "a diffuse surface of its colour"
-        shown = ", ".join(f"{v:.3g}" for v in color)
-        self.nodes.notice(node, f"shader {node.bl_label} is not supported; {words} ({shown}) is used in its place")
+        shown = "" if isinstance(color, Op) else f" ({', '.join(f'{v:.3g}' for v in color)})"
+        self.nodes.notice(node, f"shader {node.bl_label} is not supported; {words}{shown} is used in its place")
         return Lambert(color)
 
     # ---- Inputs ----
 
     def color(self, source: Source, *names: str) -> Rgb:
+        """A constant."""
         return self.nodes.color(source.node, source.groups, names, self.viewport_color)
 
-    def albedo(self, source: Source, *names: str) -> Rgb:
-        color = self.color(source, *(names or ("Color",)))
-        if max(color) > 1.0:
+    def varying(self, source: Source, *names: str) -> Triple:
+        return self.nodes.varying_color(source.node, source.groups, *names)
+
+    def albedo(self, source: Source, *names: str) -> Triple:
+        color = self.varying(source, *(names or ("Color",)))
+        if isinstance(color, tuple) and max(color) > 1.0:
             self.nodes.notice(source.node, f"reflects more light than it receives ({max(color):.3g}); cut to 1")
-        return _clipped(color)
+        return clamped_color(color) if isinstance(color, tuple) else color
 
     def number(self, source: Source, *names: str, default: float = 0.0) -> float:
+        """A constant."""
         return self.nodes.number(source.node, source.groups, *names, default=default)
+
+    def varying_number(self, source: Source, *names: str, default: float = 0.0) -> Number:
+        return self.nodes.varying_number(source.node, source.groups, *names, default=default)
 
     # ---- Shaders ----
 
     def emission(self, source: Source) -> Material:
-        # A colour that varies must not lend a lamp the grey of the viewport: the socket's own colour is closer.
-        color = self.nodes.color(source.node, source.groups, ("Color",))
-        radiance = scaled(color, self.number(source, "Strength"))
+        radiance = scaled(self.varying(source, "Color"), self.varying_number(source, "Strength"))
+        if isinstance(radiance, Op):
+            return Light(radiance)
         if min(radiance) < 0.0:
             self.nodes.notice(source.node, "negative light is not supported; it is cut to 0")
         return Light((max(radiance[0], 0.0), max(radiance[1], 0.0), max(radiance[2], 0.0)))
@@ -154,7 +200,7 @@ class _Shaders:
     def diffuse(self, source: Source) -> Material:
         return self.rough_diffuse(self.albedo(source), self.number(source, "Roughness"))
 
-    def rough_diffuse(self, albedo: Rgb, roughness: float) -> Lambert:
+    def rough_diffuse(self, albedo: Triple, roughness: float) -> Lambert:
         roughness = min(max(roughness, 0.0), 1.0)
         if roughness == 0.0:
             return Lambert(albedo)
@@ -164,7 +210,7 @@ class _Shaders:
 
     def glossy(self, source: Source) -> Material:
         color, alpha = self.albedo(source), self._alpha(source)
-        if alpha < MIRROR_ALPHA:
+        if isinstance(alpha, float) and alpha < MIRROR_ALPHA:
             return Mirror(color)
         # Cycles' Glossy has no Fresnel: its colour is the reflectance at every angle.
         return Conductor(alpha=alpha, f0=color, f90=color)
@@ -177,7 +223,7 @@ class _Shaders:
         self.nodes.notice(source.node, "edge tint is not supported; Schlick's curve from the base colour is used")
         return Conductor(alpha=alpha, f0=self.albedo(source, "Base Color"))
 
-    def _alpha(self, source: Source) -> float:
+    def _alpha(self, source: Source) -> Number:
         node = source.node
         if getattr(node, "distribution", "GGX") == "SHARP":
             return 0.0
@@ -189,14 +235,14 @@ class _Shaders:
             )
         if self.number(source, "Anisotropy") != 0.0:
             self.nodes.notice(node, "anisotropy is not supported; the reflection is round")
-        return min(max(self.number(source, "Roughness"), 0.0), 1.0) ** 2
+        return squared(clamped(self.varying_number(source, "Roughness")))
 
     def glass(self, source: Source) -> Material:
         node = source.node
         color, alpha = self.albedo(source), self._alpha(source)
         return Glass(
             max(self.number(source, "IOR"), 1e-3),
-            0.0 if alpha < MIRROR_ALPHA else alpha,
+            0.0 if isinstance(alpha, float) and alpha < MIRROR_ALPHA else alpha,
             color,
             color,
             lobes="refraction" if node.bl_idname == "ShaderNodeBsdfRefraction" else "both",
@@ -214,12 +260,13 @@ class _Shaders:
 
     def mix(self, source: Source) -> Material:
         inputs = source.node.inputs
-        factor = self.number(source, inputs[0].name)
+        factor = self.varying_number(source, inputs[0].name)
         first, second = (Input(inputs[i], source.groups) for i in (1, 2))
-        if factor <= 0.0:
-            return self.shader(first)
-        if factor >= 1.0:
-            return self.shader(second)
+        if isinstance(factor, float):
+            if factor <= 0.0:
+                return self.shader(first)
+            if factor >= 1.0:
+                return self.shader(second)
         return mix(factor, self.shader(first), self.shader(second))
 
     def add(self, source: Source) -> Material:

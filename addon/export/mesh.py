@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..scene.description import Floats, Mesh
 from ..scene.problems import GlimmerError
+from .attributes import AttributeReader
 
 if TYPE_CHECKING:
     import bpy
@@ -44,8 +45,12 @@ def split_by_normal(
     return order[first], new_vertex
 
 
-def export_mesh(mesh: bpy.types.Mesh, name: str, slot_count: int = 1) -> Mesh | None:
+def export_mesh(
+    mesh: bpy.types.Mesh, name: str, slot_count: int = 1, attributes: frozenset[str] = frozenset()
+) -> Mesh | None:
     """None for a mesh without faces. Faces of slots that the object lacks use the last, as in Blender.
+
+    attributes: names of those that shader programs ask for (see translate.surface); the mesh may lack them.
 
     Raises GlimmerError for a mesh that cannot be read."""
     if hasattr(mesh, "calc_normals_split"):  # before 4.1; later versions have corner normals at all times
@@ -64,15 +69,23 @@ def export_mesh(mesh: bpy.types.Mesh, name: str, slot_count: int = 1) -> Mesh | 
         raise GlimmerError(f"Mesh '{name}' cannot be read: it uses vertices that it does not have; validate() mends it")
     slots = read(triangles, "material_index", np.int32).clip(0, slot_count - 1)
     slots_or_none = slots.astype(np.uint16) if slots.any() else None
+    read_attributes = AttributeReader(mesh, corners, corner_vertices).read(attributes) if attributes else ()
     if _is_smooth_throughout(mesh):
         normals = smooth_normals(vertices, corner_vertices, *_faces(mesh))
-        return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), normals, slots_or_none)
+        return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), normals, slots_or_none, read_attributes)
     corner_normals = _corner_normals(mesh, corners)
     if corner_normals is None:
-        return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), None, slots_or_none)
+        return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), None, slots_or_none, read_attributes)
     source, new_vertex = split_by_normal(corner_vertices, corner_normals)
     triangle_vertices = new_vertex[corners].astype(np.uint32)
-    return Mesh(name, vertices[corner_vertices[source]], triangle_vertices, corner_normals[source], slots_or_none)
+    return Mesh(
+        name,
+        vertices[corner_vertices[source]],
+        triangle_vertices,
+        corner_normals[source],
+        slots_or_none,
+        read_attributes,
+    )
 
 
 def _is_smooth_throughout(mesh: bpy.types.Mesh) -> bool:

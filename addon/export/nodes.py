@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads node trees: follows links through groups, reroutes and muted nodes, and folds what is constant.
+"""Reads node trees: follows links through groups, reroutes and muted nodes, folds what is constant and makes the rest
+operations of a shader program (translate/).
 
-The engine's materials are constant over a surface. What is not (a texture, a mask) is replaced by the closest constant,
-and a notice says which.
+Where only a constant will do, what varies is replaced by the closest constant, and a notice says which.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,26 +19,33 @@ from numpy.typing import NDArray
 from ..scene.description import Rgb
 from ..scene.problems import Notices
 from .color import blackbody, luminance, mean_fresnel, srgb_to_linear
+from .translate import arithmetic, image, pattern, surface, vector
+from .translate import color as color_nodes
+from .translate.values import Number, Triple, Value, converted, number, triple
 
 if TYPE_CHECKING:
     import bpy
 
-Value = tuple[float, ...]  # (v,) or (r, g, b)
+Constant = tuple[float, ...]  # (v,) or (r, g, b)
 
 
 def scaled(color: Rgb, factor: float) -> Rgb:
     return (color[0] * factor, color[1] * factor, color[2] * factor)
 
 
+def add_colors(a: Rgb, b: Rgb) -> Rgb:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
 def lerp(a: Rgb, b: Rgb, t: float) -> Rgb:
     return (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t)
 
 
-def as_color(value: Value) -> Rgb:
+def as_color(value: tuple[float, ...]) -> Rgb:
     return (value[0], value[0], value[0]) if len(value) == 1 else (value[0], value[1], value[2])
 
 
-def as_number(value: Value) -> float:
+def as_number(value: tuple[float, ...]) -> float:
     return value[0] if len(value) == 1 else luminance(as_color(value))
 
 
@@ -48,6 +56,7 @@ class Source:
     node: Any
     output: Any
     groups: tuple[Any, ...]
+    kinds: tuple[str, ...] = ()  # of the sockets of groups on the way, each of which converts, from the input back
 
 
 @dataclass(frozen=True)
@@ -62,6 +71,16 @@ class NotConstantError(Exception):
     """A value that varies over a surface or a direction."""
 
 
+class NotTranslatedError(Exception):
+    """Something that no operation gives."""
+
+
+def blender_version() -> tuple[int, ...]:
+    import bpy
+
+    return tuple(bpy.app.version)
+
+
 def find_input(node: Any, *names: str) -> Any:
     """The first of a node's inputs of these names: a name may change between versions of Blender."""
     for name in names:
@@ -74,10 +93,21 @@ def find_input(node: Any, *names: str) -> Any:
 class Nodes:
     """A node tree, and where to put notices about it."""
 
-    def __init__(self, tree: bpy.types.NodeTree, where: str, notices: Notices) -> None:
+    def __init__(
+        self, tree: bpy.types.NodeTree, where: str, notices: Notices, images: image.Images | None = None
+    ) -> None:
         self.tree = tree
         self.where = where
         self.notices = notices
+        self.images = images or image.Images()
+        self.version = blender_version()
+        self.is_sky = False  # the tree is a world's
+        self.material_index = 0  # Blender's pass index
+        self.constants_only = False  # nothing may vary, as in a scene file
+        self.shift = "center"  # where a bump asks for its height
+        self.shift_width: Number = 1.0
+        self._values: dict[tuple[Any, ...], Value] = {}
+        self._constants: dict[tuple[Any, ...], Constant | NotConstantError] = {}
 
     def notice(self, node: Any, what: str) -> None:
         label = f"node '{node.name}'"
@@ -94,6 +124,7 @@ class Nodes:
     def source(self, item: Input) -> Source | None:
         """Follows an input to the node that makes its value; None if nothing is linked."""
         socket, groups = item.socket, item.groups
+        kinds: tuple[str, ...] = ()
         for _ in range(1000):  # a tree that a file holds may have cycles
             links = [link for link in socket.links if link.is_valid and not getattr(link, "is_muted", False)]
             if not links:
@@ -110,17 +141,19 @@ class Nodes:
                 if not groups:
                     return None
                 socket, groups = self._matching(groups[-1].inputs, node.outputs, output), groups[:-1]
+                kinds = (*kinds, output.type)
                 if not socket.is_linked:
-                    return None if socket.type == "SHADER" else Source(None, socket, groups)
+                    return None if socket.type == "SHADER" else Source(None, socket, groups, kinds)
             elif node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
                 inside = [n for n in node.node_tree.nodes if n.bl_idname == "NodeGroupOutput" and n.is_active_output]
                 if not inside:
                     return None
                 socket, groups = self._matching(inside[0].inputs, node.outputs, output), (*groups, node)
+                kinds = (*kinds, output.type)
                 if not socket.is_linked:
-                    return None if socket.type == "SHADER" else Source(None, socket, groups)
+                    return None if socket.type == "SHADER" else Source(None, socket, groups, kinds)
             else:
-                return Source(node, output, groups)
+                return Source(node, output, groups, kinds)
         return None
 
     @staticmethod
@@ -128,19 +161,138 @@ class Nodes:
         """The socket on this side of a group that belongs to one on the other side: they have one order."""
         return sockets[[other.identifier for other in others].index(wanted.identifier)]
 
-    # ---- Constants ----
+    # ---- Values ----
 
     def value(self, item: Input) -> Value:
-        """Raises NotConstantError."""
+        """Of a socket: a constant, or an operation. What has no counterpart is replaced where it stands, and told."""
+        source = self.source(item)
+        if source is None:
+            return _default(item.socket)
+        value = self._source_value(source)
+        given = source.output.type
+        for kind in (*reversed(source.kinds), item.socket.type):
+            value, given = converted(value, given, kind), kind
+        return value
+
+    def _source_value(self, source: Source) -> Value:
+        if source.node is None:
+            return _default(source.output)
+        width = self.shift_width if isinstance(self.shift_width, float) else id(self.shift_width)
+        key = (source.output.as_pointer(), *(group.as_pointer() for group in source.groups), self.shift, width)
+        if key not in self._values:
+            self._values[key] = (0.0,)  # what a tree in a circle, which a file may hold, reads of itself
+            self._values[key] = self._computed(source)
+        return self._values[key]
+
+    def _computed(self, source: Source) -> Value:
+        try:
+            return self._folded(source, means=False)
+        except NotConstantError:
+            pass
+        translate = _OPERATIONS.get(source.node.bl_idname)
+        if translate is not None:
+            try:
+                return translate(self, source)
+            except NotTranslatedError as error:
+                return self._substitute(source, str(error))
+        return self._substitute(source, "")
+
+    def _substitute(self, source: Source, what: str) -> Value:
+        """What passes through a node when it is muted, or else the middle of its range."""
+        inner = [link for link in source.node.internal_links if link.to_socket == source.output]
+        subject = f"{what} cannot be rendered" if what else "cannot be rendered"
+        if inner:
+            self.notice(source.node, f"{subject}; its {inner[0].from_socket.name} is used in its place")
+            return converted(
+                self.value(Input(inner[0].from_socket, source.groups)), inner[0].from_socket.type, source.output.type
+            )
+        self.notice(source.node, f"{subject}; 0.5 is used in its place")
+        return (0.5,) if source.output.type == "VALUE" else (0.5, 0.5, 0.5)
+
+    def not_translated(self, source: Source, what: str) -> Value:
+        raise NotTranslatedError(what)
+
+    @contextmanager
+    def shifted(self, shift: str, width: Number) -> Iterator[None]:
+        before = self.shift, self.shift_width
+        self.shift, self.shift_width = shift, width
+        try:
+            yield
+        finally:
+            self.shift, self.shift_width = before
+
+    def input(self, source: Source, index: int) -> Value:
+        return self.value(Input(source.node.inputs[index], source.groups))
+
+    def socket_value(self, source: Source, socket: Any) -> Value:
+        return self.value(Input(socket, source.groups))
+
+    def number_named(self, source: Source, name: str, default: float) -> Number:
+        """Of an input by its name; a version of Blender may lack it or hide it."""
+        return self.varying_number(source.node, source.groups, name, default=default)
+
+    def triple_named(self, source: Source, name: str, default: Rgb) -> Triple:
+        socket = find_input(source.node, name)
+        return default if socket is None else triple(self.socket_value(source, socket))
+
+    def is_free(self, source: Source, socket: Any) -> bool:
+        """Whether nothing gives the socket a value."""
+        return self.source(Input(socket, source.groups)) is None
+
+    def texture_place(self, source: Source, kind: str) -> Triple:
+        """A texture's vector; kind: "uv", "generated" or "direction", where nothing is linked to it."""
+        socket = source.node.inputs["Vector"]
+        if self.is_free(source, socket):
+            if kind == "direction":
+                return surface.geometry(self, "position")
+            return surface.place(self, kind)
+        return triple(self.socket_value(source, socket))
+
+    def varying_color(self, node: Any, groups: tuple[Any, ...], *names: str) -> Triple:
+        """A colour input by name, for what takes operations."""
+        if self.constants_only:
+            return self.color(node, groups, names)
+        socket = find_input(node, *names)
+        return (0.0, 0.0, 0.0) if socket is None else triple(self.value(Input(socket, groups)))
+
+    def varying_number(self, node: Any, groups: tuple[Any, ...], *names: str, default: float = 0.0) -> Number:
+        if self.constants_only:
+            return self.number(node, groups, *names, default=default)
+        socket = find_input(node, *names)
+        return default if socket is None else number(self.value(Input(socket, groups)))
+
+    # ---- Constants ----
+
+    def constant(self, item: Input) -> Constant:
+        """Raises NotConstantError. What varies in a known way is its mean, and told."""
+        return self._constant(item, means=True)
+
+    def folded(self, item: Input) -> Constant:
+        """Raises NotConstantError for all that varies."""
+        return self._constant(item, means=False)
+
+    def _constant(self, item: Input, means: bool) -> Constant:
         source = self.source(item)
         if source is None:
             return _default(item.socket)
         if source.node is None:
             return _default(source.output)
-        fold = _FOLDS.get(source.node.bl_idname)
-        if fold is None:
-            raise NotConstantError(source.node)
-        return fold(self, source)
+        return self._folded(source, means)
+
+    def _folded(self, source: Source, means: bool) -> Constant:
+        key = (source.output.as_pointer(), *(group.as_pointer() for group in source.groups), means)
+        if key not in self._constants:
+            fold = _FOLDS.get(source.node.bl_idname) or (_MEANS.get(source.node.bl_idname) if means else None)
+            self._constants[key] = NotConstantError(source.node)
+            if fold is not None:
+                try:
+                    self._constants[key] = fold(_Folder(self, means), source)
+                except NotConstantError as error:
+                    self._constants[key] = error
+        found = self._constants[key]
+        if isinstance(found, NotConstantError):
+            raise found
+        return found
 
     def color(self, node: Any, groups: tuple[Any, ...], names: tuple[str, ...], fallback: Rgb | None = None) -> Rgb:
         """A colour input by name; what varies becomes the fallback, or else the socket's own value."""
@@ -148,7 +300,7 @@ class Nodes:
         if socket is None:
             return fallback or (0.0, 0.0, 0.0)
         try:
-            return as_color(self.value(Input(socket, groups)))
+            return as_color(self.constant(Input(socket, groups)))
         except NotConstantError as error:
             own = as_color(_default(socket)) if fallback is None else fallback
             shown = ", ".join(f"{v:.3g}" for v in own)
@@ -162,7 +314,7 @@ class Nodes:
         if socket is None:
             return default
         try:
-            return as_number(self.value(Input(socket, groups)))
+            return as_number(self.constant(Input(socket, groups)))
         except NotConstantError as error:
             own = as_number(_default(socket))
             what = f"cannot be rendered; {socket.name} uses the socket's own value ({own:.3g}) in its place"
@@ -186,7 +338,7 @@ class Nodes:
         return scaled(color, self.number(source.node, source.groups, "Strength"))
 
 
-def _default(socket: Any) -> Value:
+def _default(socket: Any) -> Constant:
     value = getattr(socket, "default_value", 0.0)
     if isinstance(value, (int, float)):
         return (float(value),)
@@ -196,19 +348,33 @@ def _default(socket: Any) -> Value:
 # ---- Nodes whose value is known without a surface ------------------------------------------------------------------
 
 
-def _input(nodes: Nodes, source: Source, index: int) -> Value:
+@dataclass(frozen=True)
+class _Folder:
+    """Reads the inputs of a node that is folded."""
+
+    nodes: Nodes
+    means: bool
+
+    def value(self, item: Input) -> tuple[float, ...]:
+        return self.nodes.constant(item) if self.means else self.nodes.folded(item)
+
+    def notice(self, node: Any, what: str) -> None:
+        self.nodes.notice(node, what)
+
+
+def _input(nodes: _Folder, source: Source, index: int) -> Constant:
     return nodes.value(Input(source.node.inputs[index], source.groups))
 
 
-def _own_value(nodes: Nodes, source: Source) -> Value:
+def _own_value(nodes: _Folder, source: Source) -> Constant:
     return _default(source.output)
 
 
-def _blackbody(nodes: Nodes, source: Source) -> Value:
+def _blackbody(nodes: _Folder, source: Source) -> Constant:
     return blackbody(as_number(_input(nodes, source, 0)))
 
 
-def _combine(nodes: Nodes, source: Source) -> Value:
+def _combine(nodes: _Folder, source: Source) -> Constant:
     if getattr(source.node, "mode", "RGB") != "RGB":
         raise NotConstantError(source.node)
     return tuple(as_number(_input(nodes, source, i)) for i in range(3))
@@ -231,7 +397,7 @@ _UNARY: dict[str, Callable[[float], float]] = {
 }
 
 
-def _math(nodes: Nodes, source: Source) -> Value:
+def _math(nodes: _Folder, source: Source) -> Constant:
     operation = source.node.operation
     a = as_number(_input(nodes, source, 0))
     if operation in _BINARY:
@@ -254,7 +420,7 @@ _BLENDS: dict[str, Callable[[float, float], float]] = {
 }
 
 
-def _mix(nodes: Nodes, source: Source) -> Value:
+def _mix(nodes: _Folder, source: Source) -> Constant:
     node = source.node
     if node.bl_idname == "ShaderNodeMix":
         suffix = {"FLOAT": "Float", "VECTOR": "Vector", "RGBA": "Color"}.get(node.data_type)
@@ -278,32 +444,32 @@ def _mix(nodes: Nodes, source: Source) -> Value:
     return tuple(min(max(v, 0.0), 1.0) for v in result) if clamp_result else result
 
 
-def _gamma(nodes: Nodes, source: Source) -> Value:
+def _gamma(nodes: _Folder, source: Source) -> Constant:
     exponent = as_number(_input(nodes, source, 1))
     return tuple(v**exponent if v > 0.0 else v for v in as_color(_input(nodes, source, 0)))
 
 
-def _invert(nodes: Nodes, source: Source) -> Value:
+def _invert(nodes: _Folder, source: Source) -> Constant:
     factor = as_number(_input(nodes, source, 0))
     return tuple(v + factor * (1.0 - 2.0 * v) for v in as_color(_input(nodes, source, 1)))
 
 
-def _ramp(nodes: Nodes, source: Source) -> Value:
+def _ramp(nodes: _Folder, source: Source) -> Constant:
     color = source.node.color_ramp.evaluate(as_number(_input(nodes, source, 0)))
     return (color[3],) if source.output.identifier == "Alpha" else tuple(color[:3])
 
 
-def _to_gray(nodes: Nodes, source: Source) -> Value:
+def _to_gray(nodes: _Folder, source: Source) -> Constant:
     return (luminance(as_color(_input(nodes, source, 0))),)
 
 
-def _fresnel(nodes: Nodes, source: Source) -> Value:
+def _fresnel(nodes: _Folder, source: Source) -> Constant:
     mean = mean_fresnel(max(as_number(_input(nodes, source, 0)), 1e-3))
     nodes.notice(source.node, f"varies with the angle; its mean over all directions ({mean:.3g}) is used")
     return (mean,)
 
 
-def _layer_weight(nodes: Nodes, source: Source) -> Value:
+def _layer_weight(nodes: _Folder, source: Source) -> Constant:
     blend = min(max(as_number(_input(nodes, source, 0)), 0.0), 1.0 - 1e-5)
     if source.output.identifier == "Fresnel":
         mean = mean_fresnel(1.0 / (1.0 - blend))
@@ -330,7 +496,7 @@ def read_image(image: bpy.types.Image) -> NDArray[np.float32]:
     return pixels
 
 
-def _image_texture(nodes: Nodes, source: Source) -> Value:
+def _image_texture(nodes: _Folder, source: Source) -> Constant:
     image = source.node.image
     if image is None:
         raise NotConstantError(source.node)
@@ -339,7 +505,7 @@ def _image_texture(nodes: Nodes, source: Source) -> Value:
     except (ValueError, RuntimeError):
         raise NotConstantError(source.node) from None
     if source.output.identifier == "Alpha":
-        mean: Value = (float(pixels[..., 3].mean()) if pixels.shape[2] > 3 else 1.0,)
+        mean: Constant = (float(pixels[..., 3].mean()) if pixels.shape[2] > 3 else 1.0,)
     else:
         mean = tuple(float(v) for v in pixels[..., :3].mean(axis=(0, 1)))
     shown = ", ".join(f"{v:.3g}" for v in mean)
@@ -347,7 +513,7 @@ def _image_texture(nodes: Nodes, source: Source) -> Value:
     return mean
 
 
-_FOLDS: dict[str, Callable[[Nodes, Source], Value]] = {
+_FOLDS: dict[str, Callable[[_Folder, Source], Constant]] = {
     "ShaderNodeRGB": _own_value,
     "ShaderNodeValue": _own_value,
     "ShaderNodeBlackbody": _blackbody,
@@ -361,7 +527,66 @@ _FOLDS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeInvert": _invert,
     "ShaderNodeValToRGB": _ramp,
     "ShaderNodeRGBToBW": _to_gray,
+}
+# What varies, but whose mean is known.
+_MEANS: dict[str, Callable[[_Folder, Source], Constant]] = {
     "ShaderNodeFresnel": _fresnel,
     "ShaderNodeLayerWeight": _layer_weight,
     "ShaderNodeTexImage": _image_texture,
+}
+
+
+_OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
+    "ShaderNodeMath": arithmetic.math_node,
+    "ShaderNodeMapRange": arithmetic.map_range,
+    "ShaderNodeClamp": arithmetic.clamp,
+    "ShaderNodeCombineColor": arithmetic.combine,
+    "ShaderNodeCombineRGB": arithmetic.combine,
+    "ShaderNodeCombineXYZ": arithmetic.combine,
+    "ShaderNodeCombineHSV": arithmetic.combine,
+    "ShaderNodeSeparateColor": arithmetic.separate,
+    "ShaderNodeSeparateRGB": arithmetic.separate,
+    "ShaderNodeSeparateXYZ": arithmetic.separate,
+    "ShaderNodeSeparateHSV": arithmetic.separate,
+    "ShaderNodeMix": color_nodes.mix,
+    "ShaderNodeMixRGB": color_nodes.mix,
+    "ShaderNodeValToRGB": color_nodes.ramp,
+    "ShaderNodeRGBCurve": color_nodes.rgb_curves,
+    "ShaderNodeVectorCurve": color_nodes.rgb_curves,
+    "ShaderNodeFloatCurve": color_nodes.float_curve,
+    "ShaderNodeHueSaturation": color_nodes.hue_saturation,
+    "ShaderNodeBrightContrast": color_nodes.bright_contrast,
+    "ShaderNodeGamma": color_nodes.gamma,
+    "ShaderNodeInvert": color_nodes.invert,
+    "ShaderNodeRGBToBW": color_nodes.to_gray,
+    "ShaderNodeBlackbody": color_nodes.blackbody,
+    "ShaderNodeVectorMath": vector.vector_math_node,
+    "ShaderNodeMapping": vector.mapping,
+    "ShaderNodeVectorRotate": vector.vector_rotate,
+    "ShaderNodeVectorTransform": vector.vector_transform,
+    "ShaderNodeNormal": vector.normal_node,
+    "ShaderNodeTexNoise": pattern.noise,
+    "ShaderNodeTexMusgrave": pattern.musgrave,
+    "ShaderNodeTexVoronoi": pattern.voronoi,
+    "ShaderNodeTexWhiteNoise": pattern.white_noise,
+    "ShaderNodeTexWave": pattern.wave,
+    "ShaderNodeTexChecker": pattern.checker,
+    "ShaderNodeTexGradient": pattern.gradient,
+    "ShaderNodeTexMagic": pattern.magic,
+    "ShaderNodeTexBrick": pattern.brick,
+    "ShaderNodeTexImage": image.image_texture,
+    "ShaderNodeTexEnvironment": image.image_texture,
+    "ShaderNodeTexCoord": surface.texture_coordinate,
+    "ShaderNodeUVMap": surface.uv_map,
+    "ShaderNodeAttribute": surface.attribute_node,
+    "ShaderNodeVertexColor": surface.color_attribute,
+    "ShaderNodeNewGeometry": surface.geometry_node,
+    "ShaderNodeTangent": surface.tangent_node,
+    "ShaderNodeObjectInfo": surface.object_info,
+    "ShaderNodeCameraData": surface.camera_data,
+    "ShaderNodeLightPath": surface.light_path,
+    "ShaderNodeFresnel": surface.fresnel,
+    "ShaderNodeLayerWeight": surface.layer_weight,
+    "ShaderNodeBump": surface.bump,
+    "ShaderNodeNormalMap": surface.normal_map,
 }

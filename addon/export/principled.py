@@ -8,13 +8,13 @@ reflectance over all directions: as bright on the whole, but too bright seen fro
 from __future__ import annotations
 
 from dataclasses import replace
-from math import sqrt
 from typing import Any, Protocol
 
 from ..scene.description import BLACK, WHITE, Conductor, Glass, Lambert, Light, Material, Null, Rgb, Surface
 from .color import ior_of_normal_reflectance, mean_fresnel
 from .combine import mix, mixed
-from .nodes import Nodes, Source, find_input, scaled
+from .nodes import Nodes, Source, find_input
+from .translate.values import Number, Triple, clamped, clamped_color, scaled, square_root, squared
 
 # Inputs that the engine has nothing for: their names from 4.0, those before, and what they are called in a notice.
 UNSUPPORTED: tuple[tuple[tuple[str, ...], str], ...] = (
@@ -32,9 +32,11 @@ class Shaders(Protocol):
     nodes: Nodes
 
     def color(self, source: Source, *names: str) -> Rgb: ...
-    def albedo(self, source: Source, *names: str) -> Rgb: ...
+    def varying(self, source: Source, *names: str) -> Triple: ...
+    def varying_number(self, source: Source, *names: str, default: float = 0.0) -> Number: ...
+    def albedo(self, source: Source, *names: str) -> Triple: ...
     def number(self, source: Source, *names: str, default: float = 0.0) -> float: ...
-    def rough_diffuse(self, albedo: Rgb, roughness: float) -> Lambert: ...
+    def rough_diffuse(self, albedo: Triple, roughness: float) -> Lambert: ...
 
 
 def normal_reflectance(node: Any, ior: float, specular: float) -> float:
@@ -50,19 +52,22 @@ def principled(shaders: Shaders, source: Source) -> Material:
     def unit(*names: str, default: float = 0.0) -> float:
         return min(max(shaders.number(source, *names, default=default), 0.0), 1.0)
 
+    def varying_unit(*names: str, default: float = 0.0) -> Number:
+        return clamped(shaders.varying_number(source, *names, default=default))
+
     for names, what in UNSUPPORTED:
         if unit(*names) > 0.0:
             shaders.nodes.notice(node, f"{what} is not supported and left out")
     base = shaders.albedo(source, "Base Color")
-    alpha = unit("Roughness") ** 2
-    metallic, transmission = unit("Metallic"), unit("Transmission Weight", "Transmission")
-    opacity = unit("Alpha", default=1.0)
-    emission = scaled(
-        shaders.nodes.color(node, source.groups, ("Emission Color", "Emission"), None),
-        max(shaders.number(source, "Emission Strength"), 0.0),
-    )
+    alpha = squared(varying_unit("Roughness"))
+    metallic, transmission = varying_unit("Metallic"), unit("Transmission Weight", "Transmission")
+    opacity = varying_unit("Alpha", default=1.0)
+    strength = shaders.varying_number(source, "Emission Strength")
+    emission = scaled(shaders.varying(source, "Emission Color", "Emission"), strength)
+    if isinstance(emission, tuple):
+        emission = clamped_color(emission, 0.0, float("inf"))
     result: Material = Conductor(alpha=alpha, f0=base)
-    if metallic < 1.0:
+    if metallic != 1.0:
         below: Material = _opaque(shaders, source, base, alpha) if transmission < 1.0 else Lambert(BLACK)
         if transmission > 0.0:
             below = mix(transmission, below, _glass(shaders, source, base, alpha))
@@ -70,12 +75,12 @@ def principled(shaders: Shaders, source: Source) -> Material:
     if emission != BLACK:
         assert not isinstance(result, (Light, Null))
         result = replace(result, emission=emission)
-    if opacity < 1.0:
+    if opacity != 1.0:
         result = mix(opacity, Null(), result)
     return result
 
 
-def _opaque(shaders: Shaders, source: Source, base: Rgb, alpha: float) -> Surface:
+def _opaque(shaders: Shaders, source: Source, base: Triple, alpha: Number) -> Surface:
     specular = max(shaders.number(source, "Specular IOR Level", "Specular"), 0.0)
     ior = max(shaders.number(source, "IOR", default=1.5), 1e-3)
     weight = mean_fresnel(ior_of_normal_reflectance(normal_reflectance(source.node, ior, specular)))
@@ -88,8 +93,8 @@ def _opaque(shaders: Shaders, source: Source, base: Rgb, alpha: float) -> Surfac
     return mixed(weight, Conductor(alpha=alpha, f0=WHITE), diffuse)
 
 
-def _glass(shaders: Shaders, source: Source, base: Rgb, alpha: float) -> Glass:
+def _glass(shaders: Shaders, source: Source, base: Triple, alpha: Number) -> Glass:
     # From 4.0 on the base colour is that of light which passes two boundaries.
     at_each = find_input(source.node, "Specular IOR Level") is None
-    color = base if at_each else (sqrt(base[0]), sqrt(base[1]), sqrt(base[2]))
+    color = base if at_each else square_root(base)
     return Glass(max(shaders.number(source, "IOR", default=1.5), 1e-3), alpha, transmission=color)

@@ -28,6 +28,7 @@ from .light import export_lamp
 from .material import export_material
 from .mesh import export_mesh
 from .sphere import NotASphereError, read_sphere
+from .translate.image import Images
 from .world import export_world, warn_of_black_sky
 
 if TYPE_CHECKING:
@@ -61,20 +62,21 @@ def export_scene(
     version: tuple[int, ...],
     readers: tuple[BulkReader, ...] = (),
     is_shown: Callable[[bpy.types.Object], bool] | None = None,
+    constants_only: bool = False,
 ) -> Exported:
     """Raises GlimmerError when no picture can be made of the scene.
 
     view: of the evaluated scene. version: Blender's. readers: see BulkReader. is_shown: of an evaluated object, for
-    what the depsgraph does not know (a local view).
+    what the depsgraph does not know (a local view). constants_only: materials do not vary, as in a scene file.
     """
     start = time.perf_counter()
     notices = Notices()
     scene = depsgraph.scene_eval
     seen = view(scene, notices)
-    collector = _Collector(depsgraph, version, notices)
+    collector = _Collector(depsgraph, version, notices, constants_only)
     for placed in placed_objects(depsgraph, readers, is_shown):
         collector.add(placed)
-    environment, medium = export_world(scene.world, notices)
+    environment, medium = export_world(scene.world, notices, collector.images, constants_only)
     lights = tuple(collector.lights)
     warn_of_black_sky(scene.world, environment, lights, medium, notices)
     description = SceneDescription(
@@ -95,13 +97,21 @@ def _size(scene: SceneDescription) -> int:
     arrays: list[Any] = [item.instances for item in scene.objects] + [scene.environment.image]
     for mesh in scene.meshes():
         arrays += [mesh.vertices, mesh.triangles, mesh.normals, mesh.slots]
+        arrays += [attribute.values for attribute in mesh.attributes]
     for spheres in scene.spheres:
         arrays += [spheres.centers, spheres.radii]
     return sum(array.nbytes for array in arrays if array is not None)
 
 
+def _rgba(color: Any) -> tuple[float, float, float, float]:
+    return float(color[0]), float(color[1]), float(color[2]), float(color[3])
+
+
 class _Collector:
-    def __init__(self, depsgraph: bpy.types.Depsgraph, version: tuple[int, ...], notices: Notices) -> None:
+    def __init__(
+        self, depsgraph: bpy.types.Depsgraph, version: tuple[int, ...], notices: Notices, constants_only: bool
+    ) -> None:
+        self._constants_only = constants_only
         self.objects: list[Object] = []
         self.spheres: list[Spheres] = []
         self.lights: list[Lamp] = []
@@ -111,7 +121,8 @@ class _Collector:
         self._notices = notices
         self._material_numbers: dict[int, int] = {}
         self._override = depsgraph.view_layer_eval.material_override
-        self._meshes: dict[tuple[int, int], Mesh | None] = {}
+        self.images = Images()
+        self._meshes: dict[tuple[int, int, frozenset[str]], Mesh | None] = {}
 
     def add(self, placed: Placed) -> None:
         kind = placed.item.type
@@ -134,10 +145,10 @@ class _Collector:
         if settings is not None and settings.is_sphere and self._add_spheres(item, matrices):
             return
         slots = [slot.material for slot in item.material_slots] or [None]
-        mesh = self._mesh(item, len(slots))
+        materials = tuple(self._material(material, item.name) for material in slots)
+        mesh = self._mesh(item, len(slots), self._attributes(materials))
         if mesh is None:
             return
-        materials = tuple(self._material(material, item.name) for material in slots)
         many = len(matrices) > 1
         self.objects.append(
             Object(
@@ -147,6 +158,8 @@ class _Collector:
                 to_world=np.eye(4) if many else matrices[0],
                 instances=matrices if many else None,
                 object_index=item.pass_index,
+                color=_rgba(item.color),
+                random=placed.randoms() if many else float(placed.randoms()[0]),
             )
         )
 
@@ -163,6 +176,13 @@ class _Collector:
             )
             return False
         material = item.material_slots[0].material if item.material_slots else None
+        if self.materials[self._material(material, item.name)].program is not None:
+            # An analytic sphere has no coordinates that textures could go by.
+            self._notices.add(
+                place(item.name),
+                "is marked as an analytic sphere, but its material varies; rendered as the mesh that it is",
+            )
+            return False
         self.spheres.append(
             Spheres(
                 name=item.name,
@@ -174,13 +194,18 @@ class _Collector:
         )
         return True
 
-    def _mesh(self, item: bpy.types.Object, slot_count: int) -> Mesh | None:
-        key = (item.data.as_pointer(), slot_count)
+    def _attributes(self, materials: tuple[int, ...]) -> frozenset[str]:
+        """The names that the programs of materials ask a mesh for."""
+        programs = (self.materials[number].program for number in materials)
+        return frozenset(name for program in programs if program is not None for name in program.attributes)
+
+    def _mesh(self, item: bpy.types.Object, slot_count: int, attributes: frozenset[str]) -> Mesh | None:
+        key = (item.data.as_pointer(), slot_count, attributes)
         if key not in self._meshes:
             # A copy: triangles and split normals are made in place, and the evaluated mesh belongs to Blender.
             mesh = item.to_mesh()
             try:
-                self._meshes[key] = None if mesh is None else export_mesh(mesh, item.data.name, slot_count)
+                self._meshes[key] = None if mesh is None else export_mesh(mesh, item.data.name, slot_count, attributes)
             except (RuntimeError, ValueError, IndexError) as error:
                 raise GlimmerError(f"The mesh of object '{item.name}' cannot be read: {error}") from error
             finally:
@@ -192,5 +217,7 @@ class _Collector:
         key = 0 if material is None else material.original.as_pointer()
         if key not in self._material_numbers:
             self._material_numbers[key] = len(self.materials)
-            self.materials.append(export_material(material, object_name, self._version, self._notices))
+            self.materials.append(
+                export_material(material, object_name, self._version, self._notices, self.images, self._constants_only)
+            )
         return self._material_numbers[key]

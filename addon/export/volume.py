@@ -9,8 +9,7 @@ from math import sqrt
 
 from ..scene.description import BLACK, Medium, Rgb
 from .color import luminance
-from .combine import add_colors
-from .nodes import Input, Nodes, Source, scaled
+from .nodes import Input, Nodes, Source, add_colors, scaled
 
 # The engine's bound: a phase function of exactly 1 or -1 scatters nothing at all.
 MAX_ANISOTROPY = 0.999

@@ -11,8 +11,12 @@ import numpy as np
 
 from ..scene.description import BLACK, Environment, Floats, Lamp, Medium, Rgb, SunLight
 from ..scene.problems import Notices
-from .combine import add_colors
-from .nodes import Input, Nodes, Source, lerp, read_image, scaled
+from ..scene.program import Op, TooLargeError, compile_program
+from .nodes import Input, Nodes, NotConstantError, Source, add_colors, lerp, read_image, scaled
+from .translate.image import Images
+from .translate.values import Triple, added, clamped
+from .translate.values import lerp as blended
+from .translate.values import scaled as scaled_by
 from .volume import volume_medium
 
 if TYPE_CHECKING:
@@ -33,14 +37,20 @@ def _around_z(angle: float) -> Floats:
 IMAGE_TURN = _around_z(-pi / 2.0)
 
 
-def export_world(world: bpy.types.World | None, notices: Notices) -> tuple[Environment, Medium | None]:
+def export_world(
+    world: bpy.types.World | None, notices: Notices, images: Images | None = None, constants_only: bool = False
+) -> tuple[Environment, Medium | None]:
     if world is None:
         return Environment(), None
     if not world.use_nodes or world.node_tree is None:
         return Environment(radiance=(world.color[0], world.color[1], world.color[2])), None
-    nodes = Nodes(world.node_tree, f"world '{world.name}'", notices)
+    nodes = Nodes(world.node_tree, f"world '{world.name}'", notices, images)
+    nodes.is_sky = True
+    nodes.constants_only = constants_only
     surface, volume = nodes.surface_of_output(), nodes.surface_of_output("Volume")
-    environment = Environment() if surface is None else _Background(nodes, world).shader(surface)
+    environment = Environment()
+    if surface is not None:
+        environment = _sky_program(nodes, surface) or _Background(nodes, world).shader(surface)
     return environment, None if volume is None else volume_medium(nodes, volume)
 
 
@@ -62,6 +72,96 @@ def warn_of_black_sky(
             f"{' and '.join(unseen)} {'are' if len(unseen) > 1 else 'is'} {BLACK_SKY}, as in Cycles: use point, spot or"
             " area lamps or emissive objects inside the fog, or remove the world's Volume shader",
         )
+
+
+def _sky_program(nodes: Nodes, surface: Input) -> Environment | None:
+    """A sky that varies by more than one image; None for what the engine has without a program."""
+    if nodes.constants_only or not _varies_beyond_an_image(nodes, surface):
+        return None
+    radiance = _radiance(nodes, surface)
+    if not isinstance(radiance, Op):
+        return None
+    try:
+        program = compile_program([radiance])
+    except TooLargeError as error:
+        nodes.notices.add(nodes.where, f"its nodes cannot be rendered, since {error}; constants are used")
+        return None
+    return Environment(radiance=(1.0, 1.0, 1.0), program=program)
+
+
+def _varies_beyond_an_image(nodes: Nodes, item: Input) -> bool:
+    source = nodes.source(item)
+    if source is None or source.node is None:
+        return False
+    kind = source.node.bl_idname
+    if kind == "ShaderNodeMixShader":
+        if not _is_constant(nodes, Input(source.node.inputs[0], source.groups)):
+            return True
+        return any(_varies_beyond_an_image(nodes, Input(source.node.inputs[i], source.groups)) for i in (1, 2))
+    if kind == "ShaderNodeAddShader":
+        return any(_varies_beyond_an_image(nodes, Input(source.node.inputs[i], source.groups)) for i in (0, 1))
+    if kind not in ("ShaderNodeBackground", "ShaderNodeEmission"):
+        return False
+    color = Input(source.node.inputs["Color"], source.groups)
+    if not _is_constant(nodes, Input(source.node.inputs["Strength"], source.groups)):
+        return True
+    made_by = nodes.source(color)
+    if made_by is not None and made_by.node is not None:
+        if made_by.node.bl_idname == "ShaderNodeTexSky":
+            return False
+        if made_by.node.bl_idname == "ShaderNodeTexEnvironment":
+            return not _is_plain(nodes, made_by)
+    return not _is_constant(nodes, color)
+
+
+def _is_plain(nodes: Nodes, source: Source) -> bool:
+    """An equirectangular image that is turned and no more."""
+    node = source.node
+    if node.image is None or node.projection != "EQUIRECTANGULAR" or node.interpolation != "Linear":
+        return False
+    vector = nodes.source(Input(node.inputs["Vector"], source.groups))
+    if vector is not None and vector.node is not None and vector.node.bl_idname == "ShaderNodeMapping":
+        inputs = vector.node.inputs
+        place = inputs.get("Location")
+        if any(inputs[name].is_linked for name in ("Rotation", "Scale")):
+            return False
+        if any(v != 1.0 for v in inputs["Scale"].default_value):
+            return False
+        if place is not None and (place.is_linked or any(place.default_value)):
+            return False
+        vector = nodes.source(Input(inputs["Vector"], vector.groups))
+    if vector is None or vector.node is None:
+        return True
+    return vector.node.bl_idname == "ShaderNodeTexCoord" and (
+        vector.output.identifier == "Generated" or (vector.output.identifier == "Object" and vector.node.object is None)
+    )
+
+
+def _is_constant(nodes: Nodes, item: Input) -> bool:
+    try:
+        nodes.folded(item)
+    except NotConstantError:
+        return False
+    return True
+
+
+def _radiance(nodes: Nodes, item: Input) -> Triple:
+    source = nodes.source(item)
+    if source is None or source.node is None:
+        return BLACK
+    node = source.node
+    if node.bl_idname in ("ShaderNodeBackground", "ShaderNodeEmission"):
+        strength = nodes.varying_number(node, source.groups, "Strength")
+        return scaled_by(nodes.varying_color(node, source.groups, "Color"), strength)
+    if node.bl_idname == "ShaderNodeMixShader":
+        factor = clamped(nodes.varying_number(node, source.groups, node.inputs[0].name))
+        first, second = (_radiance(nodes, Input(node.inputs[i], source.groups)) for i in (1, 2))
+        return blended(first, second, factor)
+    if node.bl_idname == "ShaderNodeAddShader":
+        first, second = (_radiance(nodes, Input(node.inputs[i], source.groups)) for i in (0, 1))
+        return added(first, second)
+    nodes.notice(node, "is not supported in a world; it is black")
+    return BLACK
 
 
 @dataclass

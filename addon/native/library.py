@@ -14,6 +14,7 @@ from typing import TypeVar
 
 from ..scene.problems import GlimmerError
 from . import structs
+from .ops import OpRow, op_rows
 from .structs import ABI_VERSION, INITIALISERS, Result
 
 FILE_NAME = "libglimmer.so"
@@ -32,6 +33,12 @@ _SIGNATURES: dict[str, tuple[object, list[object]]] = {
     "glimmer_mesh_destroy": (None, [c_void_p]),
     "glimmer_image_create": (_RESULT, [c_uint32, c_uint32, c_uint32, c_void_p, POINTER(c_void_p)]),
     "glimmer_image_destroy": (None, [c_void_p]),
+    "glimmer_texture_create": (_RESULT, [POINTER(structs.TextureDesc), POINTER(c_void_p)]),
+    "glimmer_texture_destroy": (None, [c_void_p]),
+    "glimmer_op_info": (POINTER(structs.OpInfo), [c_uint32]),
+    "glimmer_scene_add_program": (_RESULT, [c_void_p, POINTER(structs.ProgramDesc), POINTER(c_uint32)]),
+    "glimmer_scene_bind": (_RESULT, [c_void_p, c_uint32, c_char_p, c_uint32, c_uint32]),
+    "glimmer_scene_bind_environment": (_RESULT, [c_void_p, c_uint32, c_uint32]),
     "glimmer_scene_create": (_RESULT, [POINTER(c_void_p)]),
     "glimmer_scene_destroy": (None, [c_void_p]),
     "glimmer_material_info": (POINTER(structs.MaterialInfo), [c_uint32]),
@@ -203,6 +210,10 @@ class Library:
                 self._materials[row.type][row.key] = row
                 number += 1
         return self._materials
+
+    def op_rows(self) -> dict[str, OpRow]:
+        """The operations of shader programs by name."""
+        return op_rows(self._library.glimmer_op_info)
 
     def _table(self, name: str) -> list[tuple[str, str, str]]:
         rows: list[tuple[str, str, str]] = []

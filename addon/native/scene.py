@@ -12,8 +12,10 @@ import numpy as np
 
 from ..scene import description as d
 from ..scene.problems import GlimmerError
+from ..scene.program import Output
 from . import structs
 from .library import Library
+from .programs import ProgramAdder, attribute_structs
 from .structs import CameraType, Filter, Format, LightType, ParameterKind
 
 
@@ -68,8 +70,11 @@ class MeshCache:
         desc.format = kind
         desc.vertex_count, desc.vertices, desc.normals = len(vertices), _pointer(vertices), _pointer(normals)
         desc.triangle_count, desc.triangles, desc.slots = len(triangles), _pointer(triangles), _pointer(slots)
+        attributes, keep = attribute_structs(mesh.attributes)
+        desc.attribute_count, desc.attributes = len(attributes), ctypes.addressof(attributes)
         handle = c_void_p()
         self._library.call("glimmer_mesh_create", byref(desc), byref(handle))
+        del keep
         return handle
 
 
@@ -100,7 +105,12 @@ class NativeScene:
     def _fill(self, scene: d.SceneDescription, meshes: MeshCache) -> None:
         self._set_film(scene.film)
         self._set_camera(scene.camera)
-        materials = self.material_numbers = _MaterialAdder(self.library, self.handle).add_all(scene.materials)
+        programs = ProgramAdder(self.library, self.handle)
+        try:
+            adder = _MaterialAdder(self.library, self.handle, programs)
+            materials = self.material_numbers = adder.add_all(scene.materials)
+        finally:
+            programs.close()
         for item in scene.objects:
             self._add_object(item, materials, meshes)
         for spheres in scene.spheres:
@@ -147,6 +157,11 @@ class NativeScene:
         if item.instances is not None:
             matrices, kind = _contiguous_floats(item.instances[:, :3, :])
             desc.instance_count, desc.instance_format, desc.instances = len(matrices), kind, _pointer(matrices)
+        desc.color = item.color
+        randoms = np.ascontiguousarray(item.random, np.float32).reshape(-1)
+        desc.random = float(randoms[0])
+        if matrices is not None and len(randoms) == len(matrices):
+            desc.randoms = _pointer(randoms)
         self.library.call("glimmer_scene_add_object", self.handle, byref(desc))
 
     def _add_spheres(self, spheres: d.Spheres, materials: list[int]) -> None:
@@ -167,6 +182,14 @@ class NativeScene:
         self.library.call("glimmer_scene_add_light", self.handle, byref(desc))
 
     def _set_environment(self, environment: d.Environment) -> None:
+        if environment.program is not None:
+            programs = ProgramAdder(self.library, self.handle)
+            try:
+                number = programs.add("world", environment.program)
+            finally:
+                programs.close()
+            self.library.call("glimmer_scene_bind_environment", self.handle, number, 0)
+            return
         image = c_void_p()
         if environment.image is not None:
             pixels = np.ascontiguousarray(environment.image, np.float32)
@@ -210,16 +233,30 @@ _LAMP_FILLERS: dict[type, Callable[[Any, Any], None]] = {
 }
 
 
-class _MaterialAdder:
-    """Adds materials, the parts of a mix before the mix itself."""
+# Given for a number or colour that a program gives: within every parameter's range.
+PLACEHOLDER = (0.5, 0.5, 0.5)
 
-    def __init__(self, library: Library, scene: c_void_p) -> None:
+
+class _MaterialAdder:
+    """Adds materials, the parts of a mix before the mix itself, and says which of their parameters vary."""
+
+    def __init__(self, library: Library, scene: c_void_p, programs: ProgramAdder) -> None:
         self._library = library
         self._scene = scene
+        self._programs = programs
+        self._program = 0  # of the material that is being added
 
     def add_all(self, materials: tuple[d.NamedMaterial, ...]) -> list[int]:
         """The engine's number of each."""
-        return [self._add(item.name, item.material) for item in materials]
+        return [self._add_named(item) for item in materials]
+
+    def _add_named(self, item: d.NamedMaterial) -> int:
+        if item.program is not None:
+            self._program = self._programs.add(item.name, item.program)
+        number = self._add(item.name, item.material)
+        if item.normal is not None:
+            self._programs.bind(number, "normal", self._program, item.normal.index)
+        return number
 
     def _add(self, name: str, material: d.Material) -> int:
         given = d.parameters(material)
@@ -229,7 +266,9 @@ class _MaterialAdder:
             if key not in rows:
                 raise GlimmerError(f"Material '{name}': the engine's {material.TYPE} has no '{key}'")
             out.key = key.encode()
-            if isinstance(value, d.Material):
+            if isinstance(value, Output):
+                out.value = PLACEHOLDER
+            elif isinstance(value, d.Material):
                 out.material = self._add(f"{name}.{key}", value)
             else:
                 _VALUE_FILLERS[rows[key].kind](out, value)
@@ -238,6 +277,9 @@ class _MaterialAdder:
         desc.parameter_count, desc.parameters = len(given), parameters
         number = c_uint32()
         self._library.call("glimmer_scene_add_material", self._scene, byref(desc), byref(number))
+        for key, value in given.items():
+            if isinstance(value, Output):
+                self._programs.bind(number.value, key, self._program, value.index)
         return number.value
 
 

@@ -2,7 +2,20 @@
 """The structs and enumerations of engine/include/glimmer.h, field for field in its order."""
 
 import ctypes
-from ctypes import c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import (
+    c_char,
+    c_char_p,
+    c_double,
+    c_float,
+    c_int,
+    c_int64,
+    c_size_t,
+    c_uint8,
+    c_uint16,
+    c_uint32,
+    c_uint64,
+    c_void_p,
+)
 from enum import IntEnum
 
 ABI_VERSION = 2
@@ -66,6 +79,77 @@ class MeshDesc(ctypes.Structure):
         ("triangle_count", c_size_t),
         ("triangles", c_void_p),
         ("slots", c_void_p),
+        ("attribute_count", c_size_t),
+        ("attributes", c_void_p),
+    ]
+
+
+class AttributeDomain(IntEnum):
+    VERTEX = 0
+    CORNER = 1
+    FACE = 2
+
+
+class Attribute(ctypes.Structure):
+    _fields_ = [("name", c_char_p), ("domain", c_int), ("components", c_uint32), ("values", c_void_p)]
+
+
+class TextureDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("channels", c_uint32),
+        ("format", c_int),
+        ("srgb", c_int),
+        ("pixels", c_void_p),
+    ]
+
+
+class OpInfo(ctypes.Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("modes", c_char_p),
+        ("inputs", c_char_p),
+        ("output", c_char),
+        ("resource", c_char),
+    ]
+
+
+CONSTANT = 0x8000  # added to the number of a constant where an input may be a register
+
+
+class Instruction(ctypes.Structure):
+    _fields_ = [
+        ("op", c_uint16),
+        ("out", c_uint16),
+        ("mode", c_uint8 * 6),
+        ("resource", c_uint16),
+        ("inputs", c_uint16 * 10),
+    ]
+
+
+class Table(ctypes.Structure):
+    _fields_ = [("row_count", c_size_t), ("rows", c_void_p), ("low", c_float), ("high", c_float)]
+
+
+class ProgramDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("instruction_count", c_size_t),
+        ("instructions", c_void_p),
+        ("constant_count", c_size_t),
+        ("constants", c_void_p),
+        ("table_count", c_size_t),
+        ("tables", c_void_p),
+        ("texture_count", c_size_t),
+        ("textures", c_void_p),
+        ("attribute_count", c_size_t),
+        ("attributes", c_void_p),
+        ("output_count", c_size_t),
+        ("outputs", c_void_p),
     ]
 
 
@@ -101,6 +185,9 @@ class ObjectDesc(ctypes.Structure):
         ("instances", c_void_p),
         ("object_index", c_uint32),
         ("object_indices", c_void_p),
+        ("color", c_float * 4),
+        ("random", c_float),
+        ("randoms", c_void_p),
     ]
 
 
@@ -271,6 +358,8 @@ class PlotDesc(ctypes.Structure):
 # Each description and the function of the library that fills it and says how large the library believes it to be.
 INITIALISERS: dict[str, type[ctypes.Structure]] = {
     "glimmer_mesh_init": MeshDesc,
+    "glimmer_texture_init": TextureDesc,
+    "glimmer_program_init": ProgramDesc,
     "glimmer_material_init": MaterialDesc,
     "glimmer_object_init": ObjectDesc,
     "glimmer_spheres_init": SpheresDesc,

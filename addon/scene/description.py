@@ -16,8 +16,13 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .program import Output, Program
+
 Rgb = tuple[float, float, float]
 Floats = NDArray[np.floating]
+# Rgb and float, but where a parameter varies: an Op while the material is translated, then an Output of its program.
+Color = Any
+Number = Any
 BLACK: Rgb = (0.0, 0.0, 0.0)
 WHITE: Rgb = (1.0, 1.0, 1.0)
 
@@ -75,8 +80,8 @@ class Lambert:
     facets send on to each other."""
 
     TYPE: ClassVar[str] = "lambert"
-    albedo: Rgb
-    emission: Rgb = BLACK
+    albedo: Color
+    emission: Color = BLACK
     roughness: float = 0.0
     facets: str = "single"
 
@@ -84,8 +89,8 @@ class Lambert:
 @dataclass(frozen=True)
 class Mirror:
     TYPE: ClassVar[str] = "mirror"
-    reflectance: Rgb
-    emission: Rgb = BLACK
+    reflectance: Color
+    emission: Color = BLACK
 
 
 @dataclass(frozen=True)
@@ -94,12 +99,12 @@ class Conductor:
     to f90 at grazing."""
 
     TYPE: ClassVar[str] = "conductor"
-    alpha: float
-    f0: Rgb | None = None
-    eta: Rgb | None = None
-    k: Rgb | None = None
-    emission: Rgb = BLACK
-    f90: Rgb = WHITE
+    alpha: Number
+    f0: Color = None
+    eta: Color = None
+    k: Color = None
+    emission: Color = BLACK
+    f90: Color = WHITE
 
 
 @dataclass(frozen=True)
@@ -109,18 +114,18 @@ class Glass:
 
     TYPE: ClassVar[str] = "glass"
     ior: float
-    alpha: float = 0.0
-    reflection: Rgb = WHITE
-    transmission: Rgb = WHITE  # at each crossing
+    alpha: Number = 0.0
+    reflection: Color = WHITE
+    transmission: Color = WHITE  # at each crossing
     lobes: str = "both"
-    emission: Rgb = BLACK
+    emission: Color = BLACK
 
 
 @dataclass(frozen=True)
 class Transparent:
     TYPE: ClassVar[str] = "transparent"
-    transmittance: Rgb  # of light that goes straight through
-    emission: Rgb = BLACK
+    transmittance: Color  # of light that goes straight through
+    emission: Color = BLACK
 
 
 @dataclass(frozen=True)
@@ -128,17 +133,17 @@ class Translucent:
     """Lambert's lobe on the other side."""
 
     TYPE: ClassVar[str] = "translucent"
-    albedo: Rgb
-    emission: Rgb = BLACK
+    albedo: Color
+    emission: Color = BLACK
 
 
 @dataclass(frozen=True)
 class Mix:
     TYPE: ClassVar[str] = "mix"
-    weight: float  # of a; the rest is b
+    weight: Number  # of a; the rest is b
     a: Surface
     b: Surface
-    emission: Rgb = BLACK
+    emission: Color = BLACK
 
 
 @dataclass(frozen=True)
@@ -146,13 +151,13 @@ class Add:
     TYPE: ClassVar[str] = "add"
     a: Surface
     b: Surface
-    emission: Rgb = BLACK
+    emission: Color = BLACK
 
 
 @dataclass(frozen=True)
 class Light:
     TYPE: ClassVar[str] = "light"
-    radiance: Rgb
+    radiance: Color
 
 
 @dataclass(frozen=True)
@@ -180,9 +185,20 @@ class NamedMaterial:
     name: str
     material: Material
     pass_index: int = 0  # what Blender's material index pass shows
+    program: Program | None = None  # what of the material varies
+    normal: Output | None = None  # the shading normal, in the world
 
 
 # ---- Geometry -----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Attribute:
+    """What shader programs ask a mesh for."""
+
+    name: str
+    domain: str  # "vertex", "corner" (three rows a triangle) or "face" (a row a triangle)
+    values: NDArray[np.float32]  # (n, 1 to 4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,6 +208,7 @@ class Mesh:
     triangles: NDArray[np.uint32]  # (t, 3)
     normals: Floats | None = None  # (n, 3) or None for flat; a zero normal means the face's own
     slots: NDArray[np.uint16] | None = None  # (t,): which of the object's materials; None: the first
+    attributes: tuple[Attribute, ...] = ()
 
     @cached_property
     def digest(self) -> bytes:
@@ -201,6 +218,9 @@ class Mesh:
             state.update(b"-" if array is None else str((array.dtype, array.shape)).encode())
             if array is not None:
                 state.update(np.ascontiguousarray(array).view(np.uint8).data)
+        for attribute in self.attributes:
+            state.update(f"{attribute.name},{attribute.domain},{attribute.values.shape}".encode())
+            state.update(np.ascontiguousarray(attribute.values, np.float32).reshape(-1).view(np.uint8).data)
         return state.digest()
 
 
@@ -212,6 +232,8 @@ class Object:
     to_world: Floats = field(default_factory=lambda: np.eye(4))
     instances: Floats | None = None  # (n, 4, 4), applied before to_world; None is a single one
     object_index: int = 0
+    color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)  # with alpha: what shader programs know
+    random: float | Floats = 0.0  # 0 to 1; (n,): one an instance
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,6 +292,7 @@ class Environment:
     radiance: Rgb = BLACK  # one grey that multiplies the image where there is one
     image: NDArray[np.float32] | None = None  # (height, width, 3) linear, top row first, centre along +y, z up
     to_world: Floats = field(default_factory=lambda: np.eye(4))
+    program: Program | None = None  # its first output is the radiance; the rest is then not looked at
 
 
 @dataclass(frozen=True)

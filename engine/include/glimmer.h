@@ -51,6 +51,7 @@ typedef enum glimmer_result {
 
 typedef struct glimmer_mesh glimmer_mesh;
 typedef struct glimmer_image glimmer_image;
+typedef struct glimmer_texture glimmer_texture;
 typedef struct glimmer_scene glimmer_scene;
 typedef struct glimmer_render glimmer_render;
 
@@ -65,6 +66,19 @@ typedef enum glimmer_format { GLIMMER_FLOAT32 = 0, GLIMMER_FLOAT64 = 1 } glimmer
 
 /* ---- Meshes --------------------------------------------------------------------------------------------------- */
 
+typedef enum glimmer_attribute_domain {
+    GLIMMER_PER_VERTEX = 0,
+    GLIMMER_PER_CORNER = 1, /* three rows a triangle, in their order */
+    GLIMMER_PER_TRIANGLE = 2
+} glimmer_attribute_domain;
+
+typedef struct glimmer_attribute {
+    const char *name;
+    glimmer_attribute_domain domain;
+    uint32_t components; /* 1 to 4 */
+    const float *values; /* (count of the domain, components), finite */
+} glimmer_attribute;
+
 typedef struct glimmer_mesh_desc {
     size_t struct_size;
     const char *name;          /* for messages; may be null */
@@ -76,6 +90,8 @@ typedef struct glimmer_mesh_desc {
     size_t triangle_count;     /* >= 1 */
     const uint32_t *triangles; /* (triangle_count, 3), each below vertex_count */
     const uint16_t *slots;     /* (triangle_count): which of the object's materials; null: all use the first */
+    size_t attribute_count;    /* up to 256 */
+    const struct glimmer_attribute *attributes; /* for shader programs, each of a name of its own */
 } glimmer_mesh_desc;
 
 GLIMMER_API void glimmer_mesh_init(glimmer_mesh_desc *desc);
@@ -89,6 +105,71 @@ GLIMMER_API void glimmer_mesh_destroy(glimmer_mesh *mesh); /* null is allowed, h
 GLIMMER_API glimmer_result glimmer_image_create(uint32_t width, uint32_t height, uint32_t channels, const float *pixels,
                                                 glimmer_image **image);
 GLIMMER_API void glimmer_image_destroy(glimmer_image *image);
+
+/* ---- Textures ------------------------------------------------------------------------------------------------- */
+
+typedef enum glimmer_texel_format { GLIMMER_TEXEL_UINT8 = 0, GLIMMER_TEXEL_FLOAT32 = 1 } glimmer_texel_format;
+
+/* An image that shader programs look up. It is kept as it is handed in. */
+typedef struct glimmer_texture_desc {
+    size_t struct_size;
+    const char *name;                 /* for messages; may be null */
+    uint32_t width, height, channels; /* 1 to 65536, 1 to 65536, 1 to 4: grey; grey, alpha; colour; colour, alpha */
+    glimmer_texel_format format;
+    int srgb;           /* colours are encoded as sRGB: decoded after filtering */
+    const void *pixels; /* (height, width, channels), bottom row first, finite; colours multiplied by their alpha */
+} glimmer_texture_desc;
+
+GLIMMER_API void glimmer_texture_init(glimmer_texture_desc *desc);
+GLIMMER_API glimmer_result glimmer_texture_create(const glimmer_texture_desc *desc, glimmer_texture **texture);
+GLIMMER_API void glimmer_texture_destroy(glimmer_texture *texture);
+
+/* ---- Shader programs ------------------------------------------------------------------------------------------ */
+
+/* An operation: its number is its place in the table. */
+typedef struct glimmer_op_info_t {
+    const char *name;
+    const char *modes;  /* fields parted by '|', the words of each by ' '; "" for none */
+    const char *inputs; /* a letter each: n a number, v a vector or colour */
+    char output;        /* n or v */
+    char resource;      /* what glimmer_instruction.resource counts: t tables, i textures, a attributes, - nothing */
+} glimmer_op_info_t;
+/* Null when index is out of range. */
+GLIMMER_API const glimmer_op_info_t *glimmer_op_info(uint32_t index);
+
+#define GLIMMER_CONSTANT 0x8000u /* added to the number of a constant where an input may be a register */
+
+typedef struct glimmer_instruction {
+    uint16_t op;
+    uint16_t out;    /* register, 0 to 255 */
+    uint8_t mode[6]; /* the number of a word of each of the op's fields; 0 where it has none */
+    uint16_t resource;
+    uint16_t in[10]; /* registers that an instruction before has written, or GLIMMER_CONSTANT + constant */
+} glimmer_instruction;
+
+typedef struct glimmer_table {
+    size_t row_count;  /* 2 to 65536 */
+    const float *rows; /* (row_count, 4), finite, at equal steps from low to high */
+    float low, high;
+} glimmer_table;
+
+/* Straight-line code that gives what varies over a surface or a sky. */
+typedef struct glimmer_program_desc {
+    size_t struct_size;
+    const char *name;         /* for messages; may be null */
+    size_t instruction_count; /* up to 4096 */
+    const glimmer_instruction *instructions;
+    size_t constant_count;  /* up to 8192 */
+    const float *constants; /* (constant_count, 3), finite; of a number the first */
+    size_t table_count;     /* up to 256 */
+    const glimmer_table *tables;
+    size_t texture_count; /* up to 256 */
+    glimmer_texture *const *textures;
+    size_t attribute_count;        /* up to 256 */
+    const char *const *attributes; /* names of the meshes' attributes; where a mesh has none of a name it is 0 */
+    size_t output_count;           /* 1 to 64 */
+    const uint16_t *outputs;       /* registers */
+} glimmer_program_desc;
 
 /* ---- Scene ---------------------------------------------------------------------------------------------------- */
 
@@ -148,6 +229,18 @@ GLIMMER_API void glimmer_material_init(glimmer_material_desc *desc);
 GLIMMER_API glimmer_result glimmer_scene_add_material(glimmer_scene *scene, const glimmer_material_desc *desc,
                                                       uint32_t *material);
 
+GLIMMER_API void glimmer_program_init(glimmer_program_desc *desc);
+GLIMMER_API glimmer_result glimmer_scene_add_program(glimmer_scene *scene, const glimmer_program_desc *desc,
+                                                     uint32_t *program);
+/* From now on a parameter of a material is an output of a program, cut to the parameter's range wherever it is
+   evaluated; the value that it was added with no longer counts. key: of a number or colour of the material's type (see
+   glimmer_parameter_info), or "normal", the shading normal in the world. Not for glass. */
+GLIMMER_API glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t material, const char *key,
+                                              uint32_t program, uint32_t output);
+/* The environment's radiance is an output of a program, in place of glimmer_scene_set_environment. It is asked for
+   positions: directions of unit length into the sky. */
+GLIMMER_API glimmer_result glimmer_scene_bind_environment(glimmer_scene *scene, uint32_t program, uint32_t output);
+
 typedef struct glimmer_object_desc {
     size_t struct_size;
     const char *name; /* for messages; may be null */
@@ -160,6 +253,9 @@ typedef struct glimmer_object_desc {
     const void *instances;          /* (instance_count, 3, 4), or null for a single one at to_world */
     uint32_t object_index;          /* what the object index AOV shows */
     const uint32_t *object_indices; /* (instance_count) of them, or null */
+    float color[4];                 /* what shader programs know as the object's colour and alpha; default 1 1 1 1 */
+    float random;                   /* what they know as its own number, 0 to 1 */
+    const float *randoms;           /* (instance_count) of them, or null */
 } glimmer_object_desc;
 
 GLIMMER_API void glimmer_object_init(glimmer_object_desc *desc);

@@ -269,11 +269,13 @@ if hasattr(bpy.types, "ShaderNodeVolumeCoefficients"):
     WORLDS["coefficients"] = coefficients
 
 
-def translate() -> dict[str, Any]:
+def translate(constants_only: bool = False) -> dict[str, Any]:
     facts: dict[str, Any] = {}
     for name, build in MATERIALS.items():
         notices = Notices()
-        facts[name] = {"is": repr(export_material(build().owner, "Thing", bpy.app.version, notices).material)}
+        found = export_material(build().owner, "Thing", bpy.app.version, notices, constants_only=constants_only)
+        operations = 0 if found.program is None else len(found.program.instructions)
+        facts[name] = {"is": repr(found.material), "operations": operations}
         facts[name]["notices"] = [str(notice) for notice in notices.items]
     for name, build in WORLDS.items():
         notices = Notices()
@@ -341,6 +343,11 @@ def registration() -> dict[str, Any]:
     return {"panels": sorted(before), "left": sorted(after), "gone": gone, "again": compatible() == before}
 
 
-result = {"nodes": translate(), "fog_and_sun": fog_and_sun(), "registration": registration()}
+result = {
+    "nodes": translate(),
+    "in_a_scene_file": translate(constants_only=True),
+    "fog_and_sun": fog_and_sun(),
+    "registration": registration(),
+}
 result["marked_as_spheres"] = marked_as_spheres()
 Path(inside.words()[0]).write_text(json.dumps(result))

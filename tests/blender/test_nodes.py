@@ -13,6 +13,7 @@ from hosts import Host
 
 from addon.export.color import mean_fresnel
 from addon.scene.description import Add, Conductor, Glass, Lambert, Material, Mix, Translucent, Transparent
+from addon.scene.program import Output
 
 RED = (0.8, 0.1, 0.1)
 
@@ -26,9 +27,9 @@ def facts(host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any
     return result
 
 
-def material(facts: dict[str, Any], name: str) -> tuple[Material, list[str]]:
-    names = {kind.__name__: kind for kind in (Lambert, Conductor, Glass, Mix)}
-    found = facts["nodes"][name]
+def material(facts: dict[str, Any], name: str, group: str = "nodes") -> tuple[Material, list[str]]:
+    names = {kind.__name__: kind for kind in (Lambert, Conductor, Glass, Mix, Output)}
+    found = facts[group][name]
     return eval(found["is"], names), found["notices"]
 
 
@@ -112,18 +113,23 @@ def test_principled_default_is_told_to_be_approximate(facts: dict[str, Any]) -> 
 NAMED = "object 'Thing', material 'Test"
 
 
+@pytest.mark.parametrize("name", ["texture", "procedural"])
+def test_what_varies_becomes_a_program_and_needs_no_notice(facts: dict[str, Any], name: str) -> None:
+    found, notices = material(facts, name)
+    assert found == Lambert(Output(0, False))
+    assert facts["nodes"][name]["operations"] > 0
+    assert notices == []
+
+
 @pytest.mark.parametrize(
     ("name", "albedo", "words"),
-    [
-        ("texture", (0.5, 0.5, 0.5), "the mean of image 'Chequers"),
-        ("procedural", (0.25, 0.5, 0.75), "the material's viewport colour (0.25, 0.5, 0.75)"),
-        ("unknown_shader", RED, "a diffuse surface of its colour"),
-    ],
+    [("unknown_shader", RED, "a diffuse surface of its colour"), ("texture", (0.5, 0.5, 0.5), "the mean of image")],
 )
 def test_what_cannot_be_translated_is_named_and_not_black(
     facts: dict[str, Any], name: str, albedo: tuple[float, ...], words: str
 ) -> None:
-    found, notices = material(facts, name)
+    """A scene file holds constants alone."""
+    found, notices = material(facts, name, "in_a_scene_file")
     assert isinstance(found, Lambert)
     assert found.albedo == close(albedo)
     assert len(notices) == 1

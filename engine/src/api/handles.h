@@ -30,6 +30,12 @@ struct glimmer_image {
     std::shared_ptr<glimmer::Image> image;
 };
 
+struct glimmer_texture {
+    static constexpr uint32_t kMagic = 0x54585452;
+    uint32_t magic = kMagic;
+    std::shared_ptr<const glimmer::Texture> texture;
+};
+
 struct glimmer_scene {
     static constexpr uint32_t kMagic = 0x5343454e;
     uint32_t magic = kMagic;

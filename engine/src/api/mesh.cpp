@@ -17,6 +17,32 @@ struct Array {
     }
 };
 
+void add_attributes(Mesh &mesh, const glimmer_mesh_desc &d, const std::string &what) {
+    if (d.attribute_count > Program::kMostResources || (d.attribute_count && !d.attributes))
+        fail_argument(what + ": attributes are " + (d.attributes ? std::to_string(d.attribute_count) : "null") +
+                      "; allowed: up to " + std::to_string(Program::kMostResources));
+    for (size_t i = 0; i < d.attribute_count; ++i) {
+        const glimmer_attribute &a = d.attributes[i];
+        const std::string which = what + ": attribute " + (a.name ? std::string(a.name) : std::to_string(i));
+        if (!a.name || !a.values)
+            fail_argument(which + (a.name ? ": values are null" : " has no name"));
+        if (uint32_t(a.domain) > GLIMMER_PER_TRIANGLE)
+            fail_argument(which + ": domain is " + std::to_string(int(a.domain)) + "; allowed: 0 to 2");
+        check_range(a.components, 1, 4, which + ": components");
+        for (const MeshAttribute &known : mesh.attributes)
+            if (known.name == a.name)
+                fail_argument(which + " is given twice");
+        const size_t rows = a.domain == GLIMMER_PER_VERTEX   ? d.vertex_count
+                            : a.domain == GLIMMER_PER_CORNER ? 3 * d.triangle_count
+                                                             : d.triangle_count;
+        const size_t count = rows * a.components;
+        for (size_t k = 0; k < count; ++k)
+            if (!std::isfinite(a.values[k]))
+                fail_argument(which + ": row " + std::to_string(k / a.components) + " is not finite");
+        mesh.attributes.push_back({a.name, a.domain, uint8_t(a.components), {a.values, a.values + count}});
+    }
+}
+
 std::shared_ptr<Mesh> make_mesh(const glimmer_mesh_desc &d) {
     const std::string what = label_of("mesh", d.name);
     if (d.format != GLIMMER_FLOAT32 && d.format != GLIMMER_FLOAT64)
@@ -85,6 +111,7 @@ std::shared_ptr<Mesh> make_mesh(const glimmer_mesh_desc &d) {
             fail_argument(what + ": slot 65535 is too large; allowed: 0 to 65534");
         mesh->slot_count = uint16_t(most + 1);
     }
+    add_attributes(*mesh, d, what);
     return mesh;
 }
 
@@ -98,7 +125,9 @@ extern "C" {
 
 void glimmer_mesh_init(glimmer_mesh_desc *desc) {
     if (desc)
-        *desc = {sizeof *desc, nullptr, GLIMMER_FLOAT32, 0, nullptr, nullptr, nullptr, 0, nullptr, nullptr};
+        *desc = {};
+    if (desc)
+        desc->struct_size = sizeof *desc;
 }
 
 glimmer_result glimmer_mesh_create(const glimmer_mesh_desc *desc, glimmer_mesh **mesh) {

@@ -7,8 +7,12 @@ namespace glimmer {
 
 size_t Mesh::bytes() const {
     const std::lock_guard lock(mutex_);
-    return vertices.size() * sizeof(Vec3f) + normals.size() * sizeof(Vec3f) + uvs.size() * sizeof(Vec2f) +
-           triangles.size() * sizeof(triangles[0]) + slots.size() * sizeof(uint16_t) + bvh_bytes_;
+    size_t of_attributes = 0;
+    for (const MeshAttribute &a : attributes)
+        of_attributes += a.values.size() * sizeof(float);
+    return of_attributes + vertices.size() * sizeof(Vec3f) + normals.size() * sizeof(Vec3f) +
+           uvs.size() * sizeof(Vec2f) + triangles.size() * sizeof(triangles[0]) + slots.size() * sizeof(uint16_t) +
+           bvh_bytes_;
 }
 
 Bvh Mesh::bvh(const std::shared_ptr<const EmbreeDevice> &device) const {

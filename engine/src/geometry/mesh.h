@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geometry/embree.h"
+#include "glimmer.h"
 #include "math/affine.h"
 #include "math/vec.h"
 
@@ -13,6 +14,14 @@
 #include <vector>
 
 namespace glimmer {
+
+/// Values that shader programs ask for by name.
+struct MeshAttribute {
+    std::string name;
+    glimmer_attribute_domain domain = GLIMMER_PER_CORNER;
+    uint8_t components = 3;
+    std::vector<float> values;
+};
 
 class Mesh {
   public:
@@ -27,7 +36,8 @@ class Mesh {
     std::vector<Vec2f> uvs;      ///< empty: none
     std::vector<std::array<uint32_t, 3>> triangles;
     std::vector<uint16_t> slots; ///< empty: all 0
-    float radius = 0;            ///< largest |coordinate| of a vertex, about the centre
+    std::vector<MeshAttribute> attributes;
+    float radius = 0; ///< largest |coordinate| of a vertex, about the centre
     uint16_t slot_count = 1;
 
     uint16_t slot(uint32_t triangle) const { return slots.empty() ? uint16_t(0) : slots[triangle]; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "light/interface.h"
+#include "light/varying_emission.h"
 #include "sampling/distribution_2d.h"
 #include "sampling/warp.h"
 
@@ -16,9 +17,10 @@ struct EnvironmentLight {
     Rgb color;
     std::vector<Rgb> pixels; ///< top row first; empty: constant
     uint32_t width = 0, height = 0;
-    Distribution2d distribution;   ///< empty: constant
-    std::array<Vec3f, 3> to_local; ///< rows
-    Rgb mean;                      ///< over the sphere of directions
+    Distribution2d distribution;              ///< empty: constant
+    std::array<Vec3f, 3> to_local;            ///< rows
+    Rgb mean;                                 ///< over the sphere of directions
+    const VaryingEmission *varying = nullptr; ///< gives the radiance itself; `pixels` are only what is sampled by
 
     static constexpr LightTraits traits{.infinite = true, .camera_visible = true};
 
@@ -36,6 +38,8 @@ inline Vec2f equirectangular(const Vec3f &d) {
 
 /// Bilinear between texel centres; wraps around, and stops at the poles.
 inline Rgb radiance_at_infinity(const EnvironmentLight &light, const Vec3f &direction) {
+    if (light.varying)
+        return light.varying->of_sky(direction);
     if (light.pixels.empty())
         return light.color;
     const uint32_t width = light.width, height = light.height;

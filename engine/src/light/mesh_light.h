@@ -5,6 +5,7 @@
 #include "light/emission.h"
 #include "light/interface.h"
 #include "light/shapes/triangle.h"
+#include "light/varying_emission.h"
 #include "sampling/alias_table.h"
 
 #include <array>
@@ -26,6 +27,20 @@ struct MeshLight {
     float radius = 0;
     Rgb intensity; ///< sum of area * radiance
 
+    /// Where triangles stand whose emission varies; of those the radiance above is a mean. Empty: no emission varies.
+    struct Place {
+        uint32_t instance = kNone, primitive = kNone; ///< kNone: this one's does not vary
+    };
+    std::vector<Place> places;
+    const VaryingEmission *varying = nullptr;
+
+    /// At the barycentrics of vertices 1 and 2.
+    Rgb radiance_at(uint32_t triangle, Vec2f uv, const Vec3f &wo) const {
+        if (places.empty() || places[triangle].instance == kNone)
+            return triangles[triangle].radiance;
+        return varying->of_triangle(places[triangle].instance, places[triangle].primitive, uv, wo);
+    }
+
     static constexpr LightTraits traits{.in_bvh = true, .camera_visible = true};
 };
 
@@ -38,7 +53,14 @@ inline std::optional<LightSample> sample(const MeshLight &light, const Vec3f &x,
         return std::nullopt;
     const Vec3d normal = cross(b - a, c - a);
     const auto cosine = float(std::abs(dot(normal, Vec3d(s->wi))) / length(normal));
-    return LightSample{s->wi, s->distance, t.radiance, s->pdf * choice.pmf, false, kNone, t.error, cosine};
+    LightSample out{s->wi, s->distance, t.radiance, s->pdf * choice.pmf, false, kNone, t.error, cosine};
+    if (!light.places.empty()) {
+        const Vec3d p = Vec3d(s->wi) * double(s->distance) - a, e1 = b - a, e2 = c - a;
+        const double n2 = dot(normal, normal);
+        const Vec2f uv{float(dot(cross(p, e2), normal) / n2), float(dot(cross(e1, p), normal) / n2)};
+        out.radiance = light.radiance_at(choice.index, uv, -s->wi);
+    }
+    return out;
 }
 
 inline float pdf(const MeshLight &light, const Vec3f &, const Vec3f &, const LightHit &hit) {
@@ -58,6 +80,8 @@ inline Emission emit(const MeshLight &light, bool, Vec2f u_position, Vec2f u_dir
     const double twice_area = length(scaled);
     const Vec3f normal = Vec3f(scaled / twice_area) * (choice.rest < 0.5f ? 1.0f : -1.0f);
     Emission e = emit_from_surface(position, normal, t.error, t.radiance, twice_area, u_direction);
+    if (!light.places.empty())
+        e.power = light.radiance_at(choice.index, {w.b1, w.b2}, e.ray.direction) * float(kPiDouble * twice_area);
     e.power *= 1 / choice.pmf;
     return e;
 }

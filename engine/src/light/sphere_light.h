@@ -6,13 +6,19 @@
 #include "light/emission.h"
 #include "light/interface.h"
 #include "light/shapes/sphere.h"
+#include "light/varying_emission.h"
 
 namespace glimmer {
 
 struct SphereLight {
     Sphere sphere;
     Rgb radiance;
-    uint32_t index; ///< of the scene's spheres
+    uint32_t index;                           ///< of the scene's spheres
+    const VaryingEmission *varying = nullptr; ///< then `radiance` is a mean
+
+    Rgb radiance_at(const Vec3f &normal, const Vec3f &wo) const {
+        return varying ? varying->of_sphere(index, normal, wo) : radiance;
+    }
 
     static constexpr LightTraits traits{.in_bvh = true, .camera_visible = true};
 };
@@ -21,7 +27,11 @@ inline std::optional<LightSample> sample(const SphereLight &light, const Vec3f &
     const auto s = sample_sphere(light.sphere.center - Vec3d(x), light.sphere.radius, u);
     if (!s)
         return std::nullopt;
-    return LightSample{s->wi, s->distance, light.radiance, s->pdf, false, light.index};
+    LightSample out{s->wi, s->distance, light.radiance, s->pdf, false, light.index};
+    if (light.varying)
+        out.radiance = light.radiance_at(
+            Vec3f(normalize(Vec3d(x) + Vec3d(s->wi) * double(s->distance) - light.sphere.center)), -s->wi);
+    return out;
 }
 
 inline float pdf(const SphereLight &light, const Vec3f &x, const Vec3f &, const LightHit &) {
@@ -32,8 +42,11 @@ inline Emission emit(const SphereLight &light, bool inwards, Vec2f u_position, V
     const Vec3f normal = sample_uniform_sphere(u_position);
     const double r = light.sphere.radius;
     const Vec3f position(light.sphere.center + Vec3d(normal) * r);
-    return emit_from_surface(position, inwards ? -normal : normal, kSampledPointRounding * max_abs(position),
-                             light.radiance, 4 * kPiDouble * r * r, u_direction);
+    Emission e = emit_from_surface(position, inwards ? -normal : normal, kSampledPointRounding * max_abs(position),
+                                   light.radiance, 4 * kPiDouble * r * r, u_direction);
+    if (light.varying)
+        e.power = light.radiance_at(normal, e.ray.direction) * float(4 * kPiDouble * kPiDouble * r * r);
+    return e;
 }
 
 inline LightBound bound(const SphereLight &light) {

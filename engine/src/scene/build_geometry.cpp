@@ -8,6 +8,19 @@
 
 namespace glimmer {
 
+namespace {
+
+/// A triangle's own rows of an attribute; none of one of vertices.
+void copy_triangle(const MeshAttribute &from, uint32_t triangle, MeshAttribute &to) {
+    const size_t width = from.components, rows = from.domain == GLIMMER_PER_CORNER ? 3 : 1;
+    if (from.domain == GLIMMER_PER_VERTEX)
+        return;
+    const auto first = from.values.begin() + ptrdiff_t(triangle * rows * width);
+    to.values.insert(to.values.end(), first, first + ptrdiff_t(rows * width));
+}
+
+} // namespace
+
 /// The object's mesh, or a copy of it without the triangles whose material is absent; null when none is left.
 std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription &object) const {
     const Mesh &mesh = *object.mesh;
@@ -27,11 +40,18 @@ std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription
     rest->uvs = mesh.uvs;
     rest->radius = mesh.radius;
     rest->slot_count = mesh.slot_count;
+    for (const MeshAttribute &a : mesh.attributes)
+        rest->attributes.push_back({a.name, a.domain, a.components, {}});
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
         if (!null(mesh.slot(t))) {
             rest->triangles.push_back(mesh.triangles[t]);
             rest->slots.push_back(mesh.slot(t));
+            for (size_t k = 0; k < mesh.attributes.size(); ++k)
+                copy_triangle(mesh.attributes[k], t, rest->attributes[k]);
         }
+    for (size_t k = 0; k < mesh.attributes.size(); ++k)
+        if (mesh.attributes[k].domain == GLIMMER_PER_VERTEX)
+            rest->attributes[k].values = mesh.attributes[k].values;
     return rest->triangles.empty() ? nullptr : rest;
 }
 
@@ -85,6 +105,7 @@ void SceneBuilder::build_geometry() {
             instance.object_index =
                 object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
             instances.push_back(instance);
+            object_places_.push_back({size_t(&object - description_.objects.data()), i});
         }
         scene_.meshes_.push_back(std::move(mesh));
     }

@@ -10,6 +10,9 @@ namespace glimmer {
 
 namespace {
 
+constexpr float kDimmest = 1e-3f;    // radiance for which a triangle is chosen that seems to be dark
+constexpr uint32_t kSkyWidth = 1024; // of the picture by which a program's sky is sampled
+
 Rgb to_rgb(const float (&c)[3]) {
     return {c[0], c[1], c[2]};
 }
@@ -38,15 +41,70 @@ Vec3d in_float64(const Instance &instance, const Vec3f &point) {
            Vec3d(instance.translation);
 }
 
+/// Sets what an environment's pixels are sampled by. Returns their mean over the sphere.
+Rgb distribute(EnvironmentLight &light) {
+    const uint32_t width = light.width, height = light.height;
+    // Interpolation carries a texel's light to its neighbours: their weights must not be 0.
+    std::vector<float> weights(light.pixels.size());
+    Vec3d sum;
+    double sines = 0;
+    for (uint32_t y = 0; y < height; ++y) {
+        const double sine = std::sin(kPiDouble * (y + 0.5) / height);
+        for (uint32_t x = 0; x < width; ++x) {
+            float around = 0;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const uint32_t ny = uint32_t(std::clamp(int(y) + dy, 0, int(height) - 1));
+                    const uint32_t nx = uint32_t((int64_t(x) + dx + width) % width);
+                    around = std::max(around, mean_component(light.pixels[size_t(ny) * width + nx]));
+                }
+            const Rgb &pixel = light.pixels[size_t(y) * width + x];
+            weights[size_t(y) * width + x] = std::max(mean_component(pixel), 0.25f * around) * float(sine);
+            sum += Vec3d(double(pixel.r), double(pixel.g), double(pixel.b)) * sine;
+            sines += sine;
+        }
+    }
+    const Rgb mean(float(sum.x / sines), float(sum.y / sines), float(sum.z / sines));
+    if (light.varying) // which may shine where no texel's middle does
+        for (uint32_t i = 0; i < weights.size(); ++i)
+            weights[i] += 1e-2f * mean_component(mean) * float(std::sin(kPiDouble * (i / width + 0.5) / height));
+    light.distribution = Distribution2d(weights, width, height);
+    return mean;
+}
+
 } // namespace
 
 void SceneBuilder::add_sphere_lights(std::vector<Light> &lights) const {
     const std::vector<Sphere> &spheres = scene_.accel->spheres();
     for (uint32_t i = 0; i < spheres.size(); ++i) {
-        const Rgb &emission = scene_.materials.bounds(scene_.sphere_materials[i]).emission;
+        const uint32_t m = scene_.sphere_materials[i];
+        if (scene_.materials[m].varying != Material::kConstant) {
+            if (!shines_varying(m))
+                continue;
+            const Rgb mean = shaders()->mean_of_sphere(i);
+            scene_.materials.set_mean_emission(m, max_component(mean) > kDimmest ? mean : Rgb(kDimmest));
+            lights.push_back(SphereLight{spheres[i], scene_.materials.bounds(m).emission, i, shaders()});
+            continue;
+        }
+        const Rgb &emission = scene_.materials.bounds(m).emission;
         if (!is_black(emission))
             lights.push_back(SphereLight{spheres[i], emission, i});
     }
+}
+
+ShaderScene *SceneBuilder::shaders() const {
+    return scene_.materials.shaders.get();
+}
+
+bool SceneBuilder::shines_varying(uint32_t material) const {
+    const uint32_t varying = scene_.materials[material].varying;
+    return varying != Material::kConstant && shaders()->materials[varying].shines;
+}
+
+/// A triangle that shows nothing where it was looked at may shine elsewhere: every one gets a small chance.
+Rgb SceneBuilder::mean_for_choice(uint32_t instance, uint32_t triangle) const {
+    const Rgb mean = shaders()->mean_of_triangle(instance, triangle);
+    return max_component(mean) > kDimmest ? mean : Rgb(kDimmest);
 }
 
 void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
@@ -58,12 +116,15 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
     for (uint32_t i = 0; i < instances.size(); ++i) {
         const Instance &instance = instances[i];
         const std::vector<uint32_t> &materials = scene_.object_materials[instance.object];
-        const auto emission = [&](uint32_t t) -> const Rgb & {
+        const auto varies = [&](uint32_t t) { return shines_varying(materials[instance.mesh->slot(t)]); };
+        const auto emission = [&](uint32_t t) -> Rgb {
+            if (varies(t))
+                return mean_for_choice(i, t);
             return scene_.materials.bounds(materials[instance.mesh->slot(t)]).emission;
         };
         bool shines = false;
         for (uint32_t m : materials)
-            shines |= !is_black(scene_.materials.bounds(m).emission);
+            shines |= !is_black(scene_.materials.bounds(m).emission) || shines_varying(m);
         if (!shines)
             continue;
         light.first_of_instance[i] = uint32_t(light.triangle_of.size());
@@ -86,6 +147,8 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
             }
             light.triangle_of.push_back(uint32_t(light.triangles.size()));
             light.triangles.push_back(out);
+            if (scene_.materials.shaders)
+                light.places.push_back(varies(t) ? MeshLight::Place{i, t} : MeshLight::Place{});
             light.intensity += out.radiance * float(area);
             power.push_back(strength);
             for (const Vec3d &v : {a, b, c}) {
@@ -97,6 +160,7 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
     if (power.empty())
         return;
     light.choice = AliasTable(power);
+    light.varying = shaders();
     light.center = Vec3f((low + high) * 0.5);
     light.radius = float(length(high - low) * 0.5);
     lights.push_back(std::move(light));
@@ -140,7 +204,35 @@ void SceneBuilder::add_lamps(std::vector<Light> &lights) {
     }
 }
 
+/// The program's radiance, which is sampled by a picture of it.
+void SceneBuilder::add_sky(std::vector<Light> &lights) {
+    EnvironmentLight light;
+    light.varying = shaders();
+    light.color = Rgb(1);
+    light.to_local = {Vec3f{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    light.width = kSkyWidth;
+    light.height = kSkyWidth / 2;
+    for (uint32_t y = 0; y < light.height; ++y) {
+        const float theta = kPi * (float(y) + 0.5f) / float(light.height), sine = std::sin(theta);
+        for (uint32_t x = 0; x < light.width; ++x) {
+            const float phi = 2 * kPi * ((float(x) + 0.5f) / float(light.width) - 0.5f);
+            light.pixels.push_back(
+                radiance_at_infinity(light, {sine * std::sin(phi), sine * std::cos(phi), std::cos(theta)}));
+        }
+    }
+    light.mean = distribute(light);
+    if (is_black(light.mean)) {
+        ++black_lights_;
+        return;
+    }
+    lights.push_back(std::move(light));
+}
+
 void SceneBuilder::add_environment(std::vector<Light> &lights) {
+    if (description_.sky) {
+        add_sky(lights);
+        return;
+    }
     if (!description_.environment)
         return;
     const EnvironmentDescription &e = *description_.environment;
@@ -151,32 +243,10 @@ void SceneBuilder::add_environment(std::vector<Light> &lights) {
         light.to_local[r] = Vec3f(to_local.rows[r]);
     light.mean = e.color;
     if (e.image) {
-        const Image &image = *e.image;
-        light.width = image.width;
-        light.height = image.height;
-        light.pixels = image.pixels;
-        // Interpolation carries a texel's light to its neighbours: their weights must not be 0.
-        std::vector<float> weights(image.pixels.size());
-        Vec3d sum;
-        double sines = 0;
-        for (uint32_t y = 0; y < image.height; ++y) {
-            const double sine = std::sin(kPiDouble * (y + 0.5) / image.height);
-            for (uint32_t x = 0; x < image.width; ++x) {
-                float around = 0;
-                for (int dy = -1; dy <= 1; ++dy)
-                    for (int dx = -1; dx <= 1; ++dx) {
-                        const uint32_t ny = uint32_t(std::clamp(int(y) + dy, 0, int(image.height) - 1));
-                        const uint32_t nx = uint32_t((int64_t(x) + dx + image.width) % image.width);
-                        around = std::max(around, mean_component(image.pixels[size_t(ny) * image.width + nx]));
-                    }
-                const Rgb &pixel = image.pixels[size_t(y) * image.width + x];
-                weights[size_t(y) * image.width + x] = std::max(mean_component(pixel), 0.25f * around) * float(sine);
-                sum += Vec3d(double(pixel.r), double(pixel.g), double(pixel.b)) * sine;
-                sines += sine;
-            }
-        }
-        light.distribution = Distribution2d(weights, image.width, image.height);
-        light.mean = e.color * Rgb(float(sum.x / sines), float(sum.y / sines), float(sum.z / sines));
+        light.width = e.image->width;
+        light.height = e.image->height;
+        light.pixels = e.image->pixels;
+        light.mean = e.color * distribute(light);
     }
     if (is_black(light.mean)) {
         ++black_lights_;

@@ -5,6 +5,8 @@
 #include "scene/description.h"
 #include "scene/scene.h"
 
+#include <set>
+
 namespace glimmer {
 
 class SceneBuilder {
@@ -16,12 +18,18 @@ class SceneBuilder {
     void build_materials();
     void build_medium();
     void build_geometry();
+    void build_shaders(); // materials that vary; before the lights, which look at their emission
     void build_lights();
     void build_bounds();
     void list_left_out();
 
   private:
-    void flatten(uint32_t material, float weight, std::vector<WeightedLobe> &lobes, Material &out) const;
+    ShaderScene *shaders() const; ///< null: nothing varies
+    bool shines_varying(uint32_t material) const;
+    Rgb mean_for_choice(uint32_t instance, uint32_t triangle) const;
+    void add_sky(std::vector<Light> &lights);
+    /// interior: the index of the body that the material bounds, 0 for none.
+    MaterialBounds bounds_of_varying(uint32_t material, float &interior) const;
     void use(uint32_t material);
     std::shared_ptr<const Mesh> without_absent(const ObjectDescription &object) const;
     void add_sphere_lights(std::vector<Light> &lights) const;
@@ -33,7 +41,13 @@ class SceneBuilder {
     Scene &scene_;
     uint32_t threads_;
     Vec3d origin_;
-    std::vector<bool> used_; ///< materials that something is made of
+    /// By instance: where its description stands.
+    struct ObjectPlace {
+        size_t object, instance;
+    };
+    std::vector<ObjectPlace> object_places_;
+    std::set<std::shared_ptr<const Texture>> textures_; ///< that programs look up
+    std::vector<bool> used_;                            ///< materials that something is made of
     size_t black_lights_ = 0, absent_objects_ = 0;
 };
 

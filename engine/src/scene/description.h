@@ -6,6 +6,7 @@
 #include "glimmer.h"
 #include "math/affine.h"
 #include "shading/material_description.h"
+#include "shading/program.h"
 
 #include <array>
 #include <memory>
@@ -26,6 +27,9 @@ struct ObjectDescription {
     std::vector<uint32_t> materials; ///< one a slot
     std::vector<Affine> instances;
     std::vector<uint32_t> object_indices; ///< one an instance, or one for all
+    Rgb color{1};
+    float opacity = 1;
+    std::vector<float> randoms; ///< one an instance, or one for all
 };
 
 struct SpheresDescription {
@@ -53,11 +57,13 @@ struct LightDescription : glimmer_light_desc {
 };
 
 struct SceneDescription {
+    std::vector<std::shared_ptr<Program>> programs;
     std::vector<MaterialDescription> materials;
     std::vector<ObjectDescription> objects;
     std::vector<SpheresDescription> spheres;
     std::vector<LightDescription> lights;
     std::optional<EnvironmentDescription> environment;
+    std::optional<ParameterBinding> sky; ///< the program that gives the environment's radiance
     std::optional<MediumDescription> medium;
     std::optional<glimmer_camera_desc> camera;
     std::optional<glimmer_film_desc> film;

@@ -59,6 +59,8 @@ void SceneBuilder::list_left_out() {
         out.push_back("isotropic fog: no phase function");
     if (!scene_.camera.has_lens())
         out.push_back("no depth of field: no lens sampling");
+    if (!scene_.materials.shaders)
+        out.push_back("no textures: no shader programs");
     size_t unused = 0;
     for (size_t i = 0; i < used_.size(); ++i)
         unused += !used_[i];
@@ -80,6 +82,7 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
     builder.build_materials();
     builder.build_medium();
     builder.build_geometry();
+    builder.build_shaders();
     builder.build_lights();
     builder.build_bounds();
     builder.list_left_out();
@@ -89,7 +92,7 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
             "lights of a place and size, or leave out the fog");
     if (lights.size() == 0)
         warnings.push_back("nothing in the scene shines: the picture will be black");
-    bytes = materials.bytes() + accel->bytes();
+    bytes += materials.bytes() + accel->bytes();
     for (const auto &mesh : std::set(meshes_.begin(), meshes_.end())) // objects may share one
         bytes += mesh->bytes();
     build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -27,7 +27,10 @@ struct Material {
     Rgb emission;                            ///< radiance on both sides
     Rgb transparency;                        ///< what goes straight through
     uint32_t lobe_begin = 0, lobe_count = 0; ///< of the table's constant lobes
+    uint32_t varying = kConstant;            ///< of ShaderScene::materials
     MaterialBounds bounds;
+
+    static constexpr uint32_t kConstant = 0xffffffffu;
 };
 
 } // namespace glimmer

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace glimmer {
 
@@ -29,6 +30,14 @@ enum class DielectricFresnel : uint8_t { exact, schlick };
 enum class DielectricLobes : uint8_t { both, refraction };
 enum class FacetScattering : uint8_t { single, multiple };
 
+/// A parameter that an output of a program gives.
+struct ParameterBinding {
+    static constexpr uint32_t kNormal = 0xffffffffu; ///< the shading normal, which is no parameter
+
+    uint32_t row; ///< of kParameters (material_schema.h), or kNormal
+    uint32_t program, output;
+};
+
 /// The values of the parameters of all types under the names that they have in scene files. material_schema.h says
 /// which of them a type has; the others keep their defaults and mean nothing.
 struct MaterialDescription {
@@ -48,6 +57,8 @@ struct MaterialDescription {
     DielectricLobes lobes = DielectricLobes::both;
     float weight = 0;
     uint32_t a = 0, b = 0; ///< materials before this one
+
+    std::vector<ParameterBinding> bindings;
 };
 
 } // namespace glimmer

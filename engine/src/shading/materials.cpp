@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shading/materials.h"
 
+#include "shading/material_tree.h"
+
 namespace glimmer {
 
 void Materials::add(Material material, std::span<const WeightedLobe> lobes) {
@@ -11,13 +13,17 @@ void Materials::add(Material material, std::span<const WeightedLobe> lobes) {
                        .specular = has_specular(bsdf),
                        .transmits = transmits(bsdf),
                        .transparent = !is_black(material.transparency)};
-    for (const WeightedLobe &l : lobes)
-        if (const auto *dielectric = std::get_if<Dielectric>(&l.lobe))
-            material.interior_ior = dielectric->ior;
+    material.interior_ior = interior_ior(lobes);
     material.lobe_begin = uint32_t(lobes_.size());
     material.lobe_count = uint32_t(lobes.size());
     lobes_.insert(lobes_.end(), lobes.begin(), lobes.end());
     materials_.push_back(std::move(material));
+}
+
+void Materials::set_varying(uint32_t material, uint32_t varying, const MaterialBounds &bounds, float interior_ior) {
+    materials_[material].varying = varying;
+    materials_[material].bounds = bounds;
+    materials_[material].interior_ior = interior_ior;
 }
 
 } // namespace glimmer

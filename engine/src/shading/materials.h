@@ -6,24 +6,13 @@
 #include "bsdf/bsdf.h"
 #include "shading/closure_arena.h"
 #include "shading/material.h"
+#include "shading/shader_scene.h"
 #include "shading/shading_point.h"
 
+#include <memory>
 #include <vector>
 
 namespace glimmer {
-
-/// A point of a material.
-struct Shading {
-    Bsdf bsdf; ///< stands in the scene or in the arena that it was shaded into
-    Rgb emission;
-    Rgb transparency;       ///< the part of light that goes straight through, as if there were no surface
-    float interior_ior = 0; ///< of the body that the surface bounds; 0: none
-};
-
-/// What depth, normals and indices show is the surface behind it.
-inline bool is_mostly_seen_through(const Shading &shading) {
-    return max_component(shading.transparency) > 0.5f;
-}
 
 class Materials {
   public:
@@ -38,10 +27,18 @@ class Materials {
     /// What the surface is made of as it is seen from view.wo. A material that does not vary gives the lobes that stand
     /// in the scene and leaves the arena alone; another one writes its own into it, and may turn the shading normal.
     Shading shade(Interaction &surface, const View &view, ClosureArena &arena) const {
-        static_cast<void>(view), static_cast<void>(arena);
         const Material &m = materials_[surface.material];
+        if (m.varying != Material::kConstant) [[unlikely]]
+            return shaders->shade(m.varying, surface, view, arena);
         return {Bsdf(lobes_.data() + m.lobe_begin, m.lobe_count), m.emission, m.transparency, m.interior_ior};
     }
+
+    /// Known to all that ask for shading; null: nothing varies.
+    std::shared_ptr<ShaderScene> shaders;
+    /// From now on programs give something of the material. bounds: for all that they may give.
+    void set_varying(uint32_t material, uint32_t varying, const MaterialBounds &bounds, float interior_ior);
+    /// The mean emission of a material that varies, as plans see it.
+    void set_mean_emission(uint32_t material, const Rgb &emission) { materials_[material].bounds.emission = emission; }
 
   private:
     std::vector<Material> materials_;

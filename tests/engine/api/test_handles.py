@@ -130,6 +130,8 @@ def test_struct_size(struct: type[ctypes.Structure], scene: c_void_p) -> None:
     out = c_void_p()
     takers: dict[str, Callable[[Any], int]] = {
         "MeshDesc": lambda p: library.glimmer_mesh_create(p, byref(out)),
+        "TextureDesc": lambda p: library.glimmer_texture_create(p, byref(out)),
+        "ProgramDesc": lambda p: library.glimmer_scene_add_program(scene, p, byref(c_uint32())),
         "MaterialDesc": lambda p: library.glimmer_scene_add_material(scene, p, byref(c_uint32())),
         "ObjectDesc": lambda p: library.glimmer_scene_add_object(scene, p),
         "SpheresDesc": lambda p: library.glimmer_scene_add_spheres(scene, p),

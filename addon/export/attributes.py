@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What shader programs ask meshes for by name: UV maps, colours, generated coordinates, tangents and any attribute."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene.description import Attribute, Floats
+from .translate.surface import ACTIVE_COLOR, ACTIVE_UV, GENERATED, TANGENT_PREFIX, named
+
+if TYPE_CHECKING:
+    import bpy
+
+# The field that holds a value, and how many floats it is, by the kind of an attribute.
+FIELDS = {
+    "FLOAT": ("value", 1),
+    "INT": ("value", 1),
+    "INT8": ("value", 1),
+    "BOOLEAN": ("value", 1),
+    "FLOAT_VECTOR": ("vector", 3),
+    "FLOAT2": ("vector", 2),
+    "FLOAT_COLOR": ("color", 4),
+    "BYTE_COLOR": ("color", 4),
+}
+DOMAINS = {"POINT": "vertex", "CORNER": "corner", "FACE": "face"}
+
+
+class AttributeReader:
+    """The attributes of a mesh whose triangles were made, by the names that programs have for them."""
+
+    def __init__(self, mesh: bpy.types.Mesh, corners: NDArray[np.int32], corner_vertices: NDArray[np.int32]) -> None:
+        self._mesh = mesh
+        self._corners = corners.reshape(-1)  # of the triangles, one after another
+        self._corner_vertices = corner_vertices
+
+    def read(self, names: frozenset[str]) -> tuple[Attribute, ...]:
+        found = []
+        for name in sorted(names):
+            values = self._values(name)
+            if values is not None:
+                domain, rows = values
+                rows = np.ascontiguousarray(np.nan_to_num(rows), np.float32)
+                found.append(Attribute(name, domain, rows))
+        return tuple(found)
+
+    def _values(self, name: str) -> tuple[str, Floats] | None:
+        if name == GENERATED:
+            return "corner", self._generated()[self._corner_vertices[self._corners]]
+        if name == ACTIVE_UV:
+            layer = next((layer for layer in self._mesh.uv_layers if layer.active_render), None)
+            return None if layer is None else ("corner", self._uv(layer))
+        if name == ACTIVE_COLOR:
+            return self._color(self._active_color())
+        if name.startswith(TANGENT_PREFIX):
+            return self._tangents(name[len(TANGENT_PREFIX) :])
+        own = name[len(named("")) :]
+        layer = self._mesh.uv_layers.get(own)
+        if layer is not None:
+            return "corner", self._uv(layer)
+        attribute = self._mesh.attributes.get(own)
+        return None if attribute is None else self._color(attribute)
+
+    def _generated(self) -> Floats:
+        """(vertices, 3): the place in the mesh's texture space, before modifiers where Blender kept it."""
+        vertices = self._mesh.vertices
+        rest = np.empty(3 * len(vertices), np.float32)
+        vertices.foreach_get("undeformed_co", rest)
+        location = np.array(self._mesh.texspace_location, np.float64)
+        size = np.array(self._mesh.texspace_size, np.float64)
+        inverse = np.where(size != 0.0, 0.5 / np.where(size != 0.0, size, 1.0), 0.0)
+        return rest.reshape(-1, 3) * inverse - (location * inverse - 0.5)
+
+    def _uv(self, layer: Any) -> Floats:
+        values = np.empty(2 * len(layer.data), np.float32)
+        layer.data.foreach_get("uv", values)
+        return values.reshape(-1, 2)[self._corners]
+
+    def _active_color(self) -> Any:
+        colors = self._mesh.color_attributes
+        number = getattr(colors, "render_color_index", -1)
+        return colors[number] if 0 <= number < len(colors) else colors.active_color
+
+    def _color(self, attribute: Any) -> tuple[str, Floats] | None:
+        """Of an attribute of any kind."""
+        if attribute is None or attribute.data_type not in FIELDS or attribute.domain not in DOMAINS:
+            return None
+        field, width = FIELDS[attribute.data_type]
+        if attribute.data_type in ("INT", "INT8", "BOOLEAN"):
+            numbers = np.empty(len(attribute.data), bool if attribute.data_type == "BOOLEAN" else np.int32)
+            attribute.data.foreach_get(field, numbers)
+            values = numbers.astype(np.float32)[:, None]
+        else:
+            values = np.empty(width * len(attribute.data), np.float32)
+            attribute.data.foreach_get(field, values)
+            values = values.reshape(-1, width)
+        if attribute.domain == "POINT":
+            return "corner", values[self._corner_vertices[self._corners]]
+        if attribute.domain == "CORNER":
+            return "corner", values[self._corners]
+        polygons = np.empty(len(self._mesh.loop_triangles), np.int32)
+        self._mesh.loop_triangles.foreach_get("polygon_index", polygons)
+        return "face", values[polygons]
+
+    def _tangents(self, uv_map: str) -> tuple[str, Floats] | None:
+        """(corners, 4): along the first texture coordinate, and the sign of the second."""
+        layers = self._mesh.uv_layers
+        layer = layers.get(uv_map) if uv_map else next((item for item in layers if item.active_render), None)
+        if layer is None:
+            return None
+        loops = self._mesh.loops
+        normals = np.empty(3 * len(loops), np.float32)
+        loops.foreach_get("normal", normals)
+        positions = np.empty(3 * len(self._mesh.vertices), np.float32)
+        self._mesh.vertices.foreach_get("co", positions)
+        vertices = self._corner_vertices[self._corners]
+        return "corner", corner_tangents(
+            positions.reshape(-1, 3)[vertices], normals.reshape(-1, 3)[self._corners], self._uv(layer)
+        )
+
+
+def corner_tangents(positions: Floats, normals: Floats, uvs: Floats) -> Floats:
+    """The tangents of Mikkelsen's thesis (Simulation of Wrinkled Surfaces Revisited, 2008), of triangles, as Blender's
+    renderers have them: along the first texture coordinate, and the sign of the second.
+
+    positions, normals (3 t, 3), uvs (3 t, 2): of corners. Returns (3 t, 4). Corners of one place, normal, texture
+    coordinate and handedness share the mean of their triangles' tangents, weighed by their angles.
+    """
+    p, uv = positions.reshape(-1, 3, 3).astype(np.float64), uvs.reshape(-1, 3, 2).astype(np.float64)
+    e1, e2 = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
+    d1, d2 = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+    area = d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]
+    along = (e1 * d2[:, 1:] - e2 * d1[:, 1:]) * np.where(area < 0.0, -1.0, 1.0)[:, None]
+    signs = np.repeat(np.where(area < 0.0, -1.0, 1.0), 3)
+    n = normals.astype(np.float64)
+    tangents = _unit(_across(np.repeat(along, 3, axis=0), n))
+    ahead = _unit(_across(np.roll(p, -1, axis=1).reshape(-1, 3) - p.reshape(-1, 3), n))
+    behind = _unit(_across(np.roll(p, 1, axis=1).reshape(-1, 3) - p.reshape(-1, 3), n))
+    angles = np.arccos(np.clip((ahead * behind).sum(axis=1), -1.0, 1.0)) * np.repeat(area != 0.0, 3)
+    keys = np.concatenate([positions, normals, uvs, signs[:, None]], axis=1).astype(np.float32) + np.float32(0.0)
+    _, group = np.unique(keys, axis=0, return_inverse=True)
+    group = group.reshape(-1)
+    weighed = tangents * angles[:, None]
+    sums = np.stack([np.bincount(group, weighed[:, axis]) for axis in range(3)], axis=1)
+    return np.concatenate([_unit(sums)[group], signs[:, None]], axis=1).astype(np.float32)
+
+
+def _across(vectors: Floats, normals: Floats) -> Floats:
+    return vectors - normals * (vectors * normals).sum(axis=1, keepdims=True)
+
+
+def _unit(vectors: NDArray[Any]) -> Floats:
+    lengths = np.sqrt((vectors**2).sum(axis=1, keepdims=True))
+    return vectors / np.where(lengths > 0.0, lengths, 1.0)

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What nodes ask about the surface, the object and the ray; Fresnel, Layer Weight, Bump, Normal Map."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...scene.program import Op
+from .values import Triple, Value, number, op, triple, vector_math
+
+if TYPE_CHECKING:
+    from ..nodes import Nodes, Source
+
+# Names of attributes that Blender has no name for.
+ACTIVE_UV = "uv"
+ACTIVE_COLOR = "color"
+GENERATED = "generated"
+TANGENT_PREFIX = "tangent:"
+
+# From here on the strength of a normal map scales what it holds; before, it blends normals.
+STRENGTH_IN_TANGENTS = (4, 0)
+
+
+def named(name: str) -> str:
+    return f"attribute:{name}"
+
+
+def tangents(uv_map: str) -> str:
+    return TANGENT_PREFIX + uv_map
+
+
+def geometry(nodes: Nodes, what: str) -> Op:
+    return op("geometry", nodes.shift_width, modes=(what, nodes.shift))
+
+
+def attribute(nodes: Nodes, name: str) -> Op:
+    return op("attribute", nodes.shift_width, modes=(nodes.shift,), resource=name)
+
+
+def fact(what: str) -> Op:
+    return op("geometry_number", modes=(what,))
+
+
+def place(nodes: Nodes, kind: str) -> Triple:
+    """Texture coordinates where nothing is linked to a texture's vector."""
+    if nodes.is_sky:
+        return geometry(nodes, "position")
+    return attribute(nodes, ACTIVE_UV if kind == "uv" else GENERATED)
+
+
+def texture_coordinate(nodes: Nodes, source: Source) -> Value:
+    kind = source.output.identifier
+    if nodes.is_sky and kind in ("Generated", "Object"):
+        if kind == "Object" and source.node.object is not None:
+            return _in_space_of(source.node.object, geometry(nodes, "position"))
+        return geometry(nodes, "position")
+    if source.node.from_instancer and kind in ("Generated", "UV"):
+        nodes.not_translated(source, "coordinates from the instancer")
+    if kind == "Generated":
+        return attribute(nodes, GENERATED)
+    if kind == "UV":
+        return (0.0, 0.0, 0.0) if nodes.is_sky else attribute(nodes, ACTIVE_UV)
+    if kind == "Object":
+        other = source.node.object
+        if other is None:
+            return geometry(nodes, "object_position")
+        return _in_space_of(other, geometry(nodes, "position"))
+    names = {"Normal": "object_normal", "Camera": "camera", "Window": "window", "Reflection": "reflection"}
+    return geometry(nodes, names[kind])
+
+
+def _in_space_of(item: Any, point: Triple) -> Value:
+    """A point of the world in an object's own space."""
+    rows = np.linalg.inv(np.array(item.matrix_world, np.float64))
+    parts = [op("dot", (row[0], row[1], row[2]), point) for row in rows[:3].tolist()]
+    return vector_math("add", op("combine", *parts), tuple(rows[:3, 3].tolist()))
+
+
+def uv_map(nodes: Nodes, source: Source) -> Value:
+    if source.node.from_instancer:
+        nodes.not_translated(source, "coordinates from the instancer")
+    name = source.node.uv_map
+    return attribute(nodes, named(name) if name else ACTIVE_UV)
+
+
+def attribute_node(nodes: Nodes, source: Source) -> Value:
+    node = source.node
+    kind = getattr(node, "attribute_type", "GEOMETRY")
+    if kind != "GEOMETRY":
+        nodes.not_translated(source, f"an attribute of the {kind.replace('_', ' ').lower()}")
+    return _attribute_output(nodes, source, named(node.attribute_name))
+
+
+def color_attribute(nodes: Nodes, source: Source) -> Value:
+    name = source.node.layer_name
+    return _attribute_output(nodes, source, named(name) if name else ACTIVE_COLOR)
+
+
+def _attribute_output(nodes: Nodes, source: Source, name: str) -> Value:
+    identifier = source.output.identifier
+    if identifier == "Alpha":
+        return op("attribute_alpha", nodes.shift_width, modes=(nodes.shift,), resource=name)
+    value = attribute(nodes, name)
+    return op("average", value) if identifier == "Fac" else value
+
+
+def geometry_node(nodes: Nodes, source: Source) -> Value:
+    kind = source.output.identifier
+    names = {"Position": "position", "Normal": "normal", "True Normal": "true_normal", "Incoming": "incoming"}
+    if kind in names:
+        return geometry(nodes, names[kind])
+    if kind == "Parametric":
+        return geometry(nodes, "parametric")
+    if kind == "Backfacing":
+        return fact("backfacing")
+    if kind == "Tangent":
+        return op("tangent", _around_z(attribute(nodes, GENERATED)))
+    return nodes.not_translated(source, f"{source.output.name}")
+
+
+def _around_z(generated: Triple, axis: str = "Z") -> Triple:
+    """The direction around an axis through the middle of the generated coordinates."""
+    d = vector_math("subtract", generated, (0.5, 0.5, 0.5))
+    x, y, z = (op("separate", d, modes=(name,)) for name in "xyz")
+    minus = {name: op("math", part, -1.0, 0.0, modes=("multiply", "free")) for name, part in (("y", y), ("z", z))}
+    if axis == "X":
+        return op("combine", 0.0, minus["z"], y)
+    return op("combine", minus["z"], 0.0, x) if axis == "Y" else op("combine", minus["y"], x, 0.0)
+
+
+def tangent_node(nodes: Nodes, source: Source) -> Value:
+    node = source.node
+    if node.direction_type == "RADIAL":
+        return op("tangent", _around_z(attribute(nodes, GENERATED), node.axis))
+    return op("tangent", attribute(nodes, tangents(node.uv_map)))
+
+
+def object_info(nodes: Nodes, source: Source) -> Value:
+    names = {"Location": "object_location", "Color": "object_color"}
+    kind = source.output.identifier
+    if kind in names:
+        return geometry(nodes, names[kind])
+    if kind == "Material Index":
+        return (float(nodes.material_index),)
+    numbers = {"Alpha": "object_alpha", "Object Index": "object_index", "Random": "object_random"}
+    return fact(numbers[kind])
+
+
+def camera_data(nodes: Nodes, source: Source) -> Value:
+    kind = source.output.identifier
+    if kind == "View Vector":
+        return vector_math("normalize", geometry(nodes, "camera"))
+    return fact("view_z" if kind == "View Z Depth" else "view_distance")
+
+
+LIGHT_PATH = {
+    "Is Camera Ray": "camera_ray",
+    "Is Shadow Ray": "shadow_ray",
+    "Is Diffuse Ray": "diffuse_ray",
+    "Is Glossy Ray": "glossy_ray",
+    "Is Singular Ray": "singular_ray",
+    "Is Reflection Ray": "reflection_ray",
+    "Is Transmission Ray": "transmission_ray",
+    "Ray Length": "ray_length",
+    "Ray Depth": "ray_depth",
+}
+
+
+def light_path(nodes: Nodes, source: Source) -> Value:
+    known = LIGHT_PATH.get(source.output.identifier)
+    return nodes.not_translated(source, source.output.name) if known is None else fact(known)
+
+
+def normal_input(nodes: Nodes, source: Source) -> Triple:
+    """A node's Normal, or the surface's."""
+    socket = source.node.inputs.get("Normal")
+    if socket is None or nodes.is_free(source, socket):
+        return geometry(nodes, "normal")
+    return triple(nodes.socket_value(source, socket))
+
+
+def fresnel(nodes: Nodes, source: Source) -> Value:
+    return op("fresnel", number(nodes.input(source, 0)), normal_input(nodes, source))
+
+
+def layer_weight(nodes: Nodes, source: Source) -> Value:
+    kind = "fresnel" if source.output.identifier == "Fresnel" else "facing"
+    return op("layer_weight", number(nodes.input(source, 0)), normal_input(nodes, source), modes=(kind,))
+
+
+def bump(nodes: Nodes, source: Source) -> Value:
+    """Its height is asked for at the place and at two places beside it."""
+    node = source.node
+    if nodes.shift != "center":
+        # Within the height of another bump: of the place itself, as in Cycles.
+        return normal_input(nodes, source)
+    inputs = node.inputs
+    strength, distance = (number(nodes.socket_value(source, inputs[name])) for name in ("Strength", "Distance"))
+    width = inputs.get("Filter Width")
+    step = 1.0 if width is None else number(nodes.socket_value(source, width))
+    if nodes.is_free(source, inputs["Height"]):
+        return normal_input(nodes, source)
+    heights = []
+    for shift in ("center", "dx", "dy"):
+        with nodes.shifted(shift, step):
+            heights.append(number(nodes.socket_value(source, inputs["Height"])))
+    if node.invert:
+        distance = op("math", distance, -1.0, 0.0, modes=("multiply", "free"))
+    return op("bump", strength, distance, *heights, normal_input(nodes, source), step)
+
+
+def normal_map(nodes: Nodes, source: Source) -> Value:
+    node = source.node
+    strength, color = number(nodes.input(source, 0)), triple(nodes.input(source, 1))
+    modes, attribute_name = (node.space.lower(),), tangents(node.uv_map)
+    if nodes.version >= STRENGTH_IN_TANGENTS:
+        return op("normal_map", strength, color, modes=modes, resource=attribute_name)
+    # Along a line between both normals.
+    own = geometry(nodes, "normal")
+    bent = op("normal_map", 1.0, color, modes=modes, resource=attribute_name)
+    part = op("clamp", strength, 0.0, 1e6, modes=("minmax",))
+    return vector_math(
+        "normalize", vector_math("add", own, vector_math("scale", vector_math("subtract", bent, own), scale=part))
+    )

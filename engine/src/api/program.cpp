@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Textures and shader programs.
+#include "api/handles.h"
+#include "shading/material_schema.h"
+#include "shading/ops.h"
+
+#include <string_view>
+
+using namespace glimmer;
+
+namespace {
+
+std::shared_ptr<const Texture> make_texture(const glimmer_texture_desc &d) {
+    const std::string what = label_of("texture", d.name);
+    check_range(d.width, 1, 65536, what + ": width");
+    check_range(d.height, 1, 65536, what + ": height");
+    check_range(d.channels, 1, 4, what + ": channels");
+    if (d.format != GLIMMER_TEXEL_UINT8 && d.format != GLIMMER_TEXEL_FLOAT32)
+        fail_argument(what + ": format is " + std::to_string(int(d.format)) + "; allowed: uint8 (0), float32 (1)");
+    if (!d.pixels)
+        fail_argument(what + ": pixels is null");
+    auto texture = std::make_shared<Texture>();
+    texture->width = d.width;
+    texture->height = d.height;
+    texture->channels = d.channels;
+    texture->srgb = d.srgb != 0;
+    const size_t count = size_t(d.width) * d.height * d.channels;
+    if (d.format == GLIMMER_TEXEL_UINT8) {
+        const auto *values = static_cast<const uint8_t *>(d.pixels);
+        texture->bytes.assign(values, values + count);
+        return texture;
+    }
+    const auto *values = static_cast<const float *>(d.pixels);
+    for (size_t i = 0; i < count; ++i)
+        if (!std::isfinite(values[i]))
+            fail_argument(what + ": the pixel at x " + std::to_string(i / d.channels % d.width) + ", y " +
+                          std::to_string(i / d.channels / d.width) + " is not finite");
+    texture->floats.assign(values, values + count);
+    return texture;
+}
+
+/// The row of a parameter of the material, or kNormal.
+uint32_t find_row(const char *key, const MaterialDescription &material, bool is_number, const std::string &what) {
+    const std::string_view wanted = key ? key : "";
+    std::string known;
+    const auto consider = [&](const char *name, bool number) {
+        if (wanted == name) {
+            if (number != is_number)
+                fail_argument(what + ": " + name + " is a " + (number ? "number" : "colour or vector") +
+                              ", the output is not");
+            return true;
+        }
+        known += (known.empty() ? "" : ", ") + std::string(name);
+        return false;
+    };
+    // What is mixed with nothing refracts, or is not there at all.
+    const bool may_vary = material.type != MaterialType::glass && material.type != MaterialType::null;
+    for (uint32_t i = 0; may_vary && i < kParameters.size(); ++i) {
+        const glimmer_parameter_info_t &info = kParameters[i].info;
+        if (kParameters[i].type == material.type && (info.kind == GLIMMER_NUMBER || info.kind == GLIMMER_COLOR) &&
+            consider(info.key, info.kind == GLIMMER_NUMBER))
+            return i;
+    }
+    if (may_vary && material.type != MaterialType::light && consider("normal", false))
+        return ParameterBinding::kNormal;
+    std::string message = what + ": \"";
+    message += wanted;
+    message += "\" cannot vary; allowed: ";
+    message += known.empty() ? "nothing" : known;
+    fail_argument(message);
+}
+
+} // namespace
+
+extern "C" {
+
+void glimmer_texture_init(glimmer_texture_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+    desc->channels = 3;
+}
+
+glimmer_result glimmer_texture_create(const glimmer_texture_desc *desc, glimmer_texture **texture) {
+    return guarded([&] {
+        glimmer_texture_desc defaults;
+        glimmer_texture_init(&defaults);
+        const glimmer_texture_desc d = checked_desc(desc, defaults, "texture");
+        if (!texture)
+            fail_argument("texture: the output is null");
+        auto handle = std::make_unique<glimmer_texture>();
+        handle->texture = make_texture(d);
+        *texture = handle.release();
+    });
+}
+
+void glimmer_texture_destroy(glimmer_texture *texture) {
+    destroy(texture);
+}
+
+const glimmer_op_info_t *glimmer_op_info(uint32_t index) {
+    return index < kOps.size() ? &kOps[index] : nullptr;
+}
+
+void glimmer_program_init(glimmer_program_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
+}
+
+glimmer_result glimmer_scene_add_program(glimmer_scene *scene, const glimmer_program_desc *desc, uint32_t *program) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        glimmer_program_desc defaults;
+        glimmer_program_init(&defaults);
+        const glimmer_program_desc d = checked_desc(desc, defaults, "program");
+        const std::string what = label_of("program", d.name);
+        if (d.texture_count > Program::kMostResources)
+            fail_argument(what + ": textures are " + std::to_string(d.texture_count) + "; allowed: up to " +
+                          std::to_string(Program::kMostResources));
+        if (d.texture_count && !d.textures)
+            fail_argument(what + ": textures are null");
+        std::vector<std::shared_ptr<const Texture>> textures;
+        for (size_t i = 0; i < d.texture_count; ++i)
+            textures.push_back(checked(d.textures[i], "texture").texture);
+        if (!program)
+            fail_argument(what + ": the output is null");
+        s.programs.push_back(std::make_shared<Program>(d, std::move(textures)));
+        *program = uint32_t(s.programs.size() - 1);
+    });
+}
+
+glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t material, const char *key, uint32_t program,
+                                  uint32_t output) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        if (material >= s.materials.size())
+            fail_argument("bind: material " + std::to_string(material) + " was not added");
+        MaterialDescription &m = s.materials[material];
+        const std::string what = label_of("material", m.label.c_str());
+        if (program >= s.programs.size())
+            fail_argument(what + ": program " + std::to_string(program) + " was not added");
+        if (output >= s.programs[program]->output_count())
+            fail_argument(what + ": output " + std::to_string(output) + " of " +
+                          std::to_string(s.programs[program]->output_count()) + " of its program");
+        const uint32_t row = find_row(key, m, s.programs[program]->is_number(output), what);
+        for (const ParameterBinding &known : m.bindings)
+            if (known.row == row)
+                fail_argument(what + ": " + key + " is bound twice");
+        m.bindings.push_back({row, program, output});
+    });
+}
+
+glimmer_result glimmer_scene_bind_environment(glimmer_scene *scene, uint32_t program, uint32_t output) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        if (program >= s.programs.size())
+            fail_argument("environment: program " + std::to_string(program) + " was not added");
+        const Program &p = *s.programs[program];
+        if (output >= p.output_count() || p.is_number(output))
+            fail_argument("environment: output " + std::to_string(output) + " of program \"" + p.name +
+                          "\" is none, or a number; allowed: a colour");
+        s.sky = ParameterBinding{ParameterBinding::kNormal, program, output};
+    });
+}
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Emission that shader programs give, as lights ask for it where they are sampled. What chooses among lights and their
+// parts goes by means; the radiance of a sample is that of its own place, so that the choice need not know it.
+#pragma once
+
+#include "math/vec.h"
+
+#include <cstdint>
+
+namespace glimmer {
+
+class VaryingEmission {
+  public:
+    virtual ~VaryingEmission() = default;
+
+    /// Radiance of a triangle at the barycentrics (u, v) of its vertices 1 and 2, towards wo.
+    virtual Rgb of_triangle(uint32_t instance, uint32_t primitive, Vec2f uv, const Vec3f &wo) const = 0;
+    /// Of a sphere where its outward normal is `normal`.
+    virtual Rgb of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const = 0;
+    /// Of the sky in a direction.
+    virtual Rgb of_sky(const Vec3f &direction) const = 0;
+};
+
+} // namespace glimmer

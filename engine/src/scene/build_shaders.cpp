@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Materials and skies of which shader programs give something.
+#include "base/error.h"
+#include "math/constants.h"
+#include "scene/builder.h"
+#include "shading/material_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace glimmer {
+
+namespace {
+
+/// The scene's number of every name of an attribute that programs ask for.
+using Names = std::map<std::string, uint32_t>;
+
+Names number_attributes(std::span<const std::shared_ptr<Program>> programs) {
+    Names names;
+    for (const auto &program : programs) {
+        std::vector<uint32_t> ids;
+        for (const std::string &name : program->attribute_names())
+            ids.push_back(names.emplace(name, uint32_t(names.size())).first->second);
+        program->set_attribute_ids(std::move(ids));
+    }
+    return names;
+}
+
+std::vector<AttributeView> views_of(const Mesh &mesh, const Names &names) {
+    std::vector<AttributeView> views(names.size());
+    for (const MeshAttribute &a : mesh.attributes)
+        if (const auto found = names.find(a.name); found != names.end())
+            views[found->second] = {a.values.data(), a.components, AttributeDomain(a.domain)};
+    return views;
+}
+
+ObjectFrame frame_of(const Instance &instance, const Vec3d &origin) {
+    ObjectFrame frame;
+    Linear linear;
+    for (size_t r = 0; r < 3; ++r) {
+        frame.to_world[r] = instance.linear[r];
+        linear.rows[r] = Vec3d(instance.linear[r]);
+    }
+    const Linear cofactor = linear.cofactor();
+    const double determinant = linear.determinant();
+    const std::array<Vec3d, 3> &c = cofactor.rows; // the inverse is their transpose over the determinant
+    frame.to_object = {Vec3f(Vec3d(c[0].x, c[1].x, c[2].x) / determinant),
+                       Vec3f(Vec3d(c[0].y, c[1].y, c[2].y) / determinant),
+                       Vec3f(Vec3d(c[0].z, c[1].z, c[2].z) / determinant)};
+    const Vec3d &m = instance.mesh->center;
+    frame.location = Vec3f(Vec3d(instance.translation) + origin -
+                           Vec3d(dot(linear.rows[0], m), dot(linear.rows[1], m), dot(linear.rows[2], m)));
+    frame.index = float(instance.object_index);
+    return frame;
+}
+
+} // namespace
+
+/// For all values in range: an albedo of 1, and of what is rough the tip of the sharpest lobe.
+MaterialBounds SceneBuilder::bounds_of_varying(uint32_t material, float &interior) const {
+    std::vector<Vec3f> values;
+    std::vector<uint32_t> first;
+    for (const auto &program : description_.programs) {
+        first.push_back(uint32_t(values.size()));
+        values.insert(values.end(), program->output_count(), Vec3f());
+    }
+    // Colours as bright, and roughness as little, as they can be; weights between, so that every part is there.
+    for (size_t p = 0; p < description_.programs.size(); ++p)
+        for (size_t o = 0; o < description_.programs[p]->output_count(); ++o)
+            values[first[p] + o] = description_.programs[p]->is_number(o) ? Vec3f(1e-3f, 0, 0) : Vec3f(1, 1, 1);
+    std::vector<std::vector<ParameterBinding>> bindings;
+    for (const MaterialDescription &m : description_.materials)
+        bindings.push_back(m.bindings);
+    const ProgramOutputs outputs{values, first, bindings};
+    FlatMaterial flat;
+    flatten(description_.materials, material, &outputs, flat);
+    MaterialBounds bounds;
+    for (WeightedLobe &l : flat.lobes) {
+        if (auto *conductor = std::get_if<Conductor>(&l.lobe); conductor && !conductor->use_f0)
+            *conductor = {conductor->alpha, true, {}, {}, Rgb(1), conductor->masking, Rgb(1)};
+        bounds.specular |= is_specular(l.lobe);
+        bounds.transmits |= transmits(l.lobe);
+        bounds.max_value += max_value(l.lobe);
+    }
+    bounds.scatters = !flat.lobes.empty();
+    bounds.transparent = !is_black(flat.transparency);
+    interior = interior_ior(flat.lobes);
+    return bounds;
+}
+
+void SceneBuilder::build_shaders() {
+    const size_t count = description_.materials.size();
+    std::vector<uint32_t> varying;
+    for (uint32_t i = 0; i < count; ++i)
+        if (used_[i] && varies(description_.materials, i))
+            varying.push_back(i);
+    if (varying.empty() && !description_.sky)
+        return;
+    auto shaders = std::make_shared<ShaderScene>();
+    for (const MaterialDescription &m : description_.materials) {
+        shaders->bindings.push_back(m.bindings);
+        shaders->nodes.push_back(m);
+        shaders->nodes.back().bindings.clear();
+        shaders->nodes.back().label.clear(); // nodes are copied where they are shaded
+    }
+    const Names names = number_attributes(description_.programs);
+    shaders->programs.assign(description_.programs.begin(), description_.programs.end());
+    shaders->varying_of.assign(count, kNone);
+    shaders->origin = origin_;
+    shaders->geometry = scene_.accel.get();
+    shaders->object_materials = scene_.object_materials;
+    shaders->sphere_materials = scene_.sphere_materials;
+    shaders->sky = description_.sky;
+    const glimmer_camera_desc &c = *description_.camera;
+    const Affine to_world = affine_from_rows(c.to_world);
+    shaders->camera.to_camera = {Vec3f(to_world.linear.column(0)), Vec3f(to_world.linear.column(1)),
+                                 -Vec3f(to_world.linear.column(2))};
+    shaders->camera.position = Vec3f(to_world.translation);
+    shaders->camera.orthographic = c.type == GLIMMER_ORTHOGRAPHIC;
+    shaders->camera.half_width =
+        shaders->camera.orthographic ? float(c.width / 2) : float(std::tan(c.fov_x * kPiDouble / 360));
+    shaders->camera.aspect = float(scene_.film.height) / float(scene_.film.width);
+    shaders->camera.shift = {float(c.shift[0]), float(c.shift[1])};
+    shaders->pixel_width = 2 * shaders->camera.half_width / float(scene_.film.width);
+    for (const Instance &instance : scene_.accel->instances()) {
+        shaders->frames.push_back(frame_of(instance, origin_));
+        const ObjectPlace &place = object_places_[shaders->frames.size() - 1];
+        const ObjectDescription &object = description_.objects[place.object];
+        ObjectFrame &frame = shaders->frames.back();
+        frame.color = object.color;
+        frame.alpha = object.opacity;
+        frame.random = object.randoms.size() > 1 ? object.randoms[place.instance] : object.randoms[0];
+    }
+    for (const auto &mesh : scene_.meshes_)
+        shaders->attributes.push_back(views_of(*mesh, names));
+    for (uint32_t i : varying) {
+        shaders->add(i);
+        float interior = 0;
+        const MaterialBounds bounds = bounds_of_varying(i, interior);
+        scene_.materials.set_varying(i, shaders->varying_of[i], bounds, interior);
+        scene_.has_dielectrics |= interior > 0;
+        scene_.has_transparency |= bounds.transparent;
+        scene_.has_surfaces |= scene_.materials.bounds(i).scatters;
+        scene_.max_value = std::max(scene_.max_value, scene_.materials.bounds(i).max_value);
+    }
+    for (const auto &program : shaders->programs) {
+        scene_.bytes += program->size();
+        for (const auto &texture : program->textures())
+            textures_.insert(texture);
+    }
+    for (const auto &texture : textures_)
+        scene_.bytes += texture->size();
+    scene_.materials.shaders = std::move(shaders);
+}
+
+} // namespace glimmer

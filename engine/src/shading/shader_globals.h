@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a shader program may ask about the place that it is evaluated at.
+#pragma once
+
+#include "math/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace glimmer {
+
+enum class AttributeDomain : uint8_t { vertex, corner, face };
+
+/// An attribute of a mesh: rows of one to four floats.
+struct AttributeView {
+    const float *values = nullptr; ///< null: the mesh has none of this name, and reads give 0
+    uint8_t components = 3;
+    AttributeDomain domain = AttributeDomain::corner;
+};
+
+/// An object's own space, and what a program may know of the object.
+struct ObjectFrame {
+    std::array<Vec3f, 3> to_world{Vec3f{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; ///< rows of the linear part
+    std::array<Vec3f, 3> to_object{Vec3f{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    Vec3f location;
+    Rgb color{1};
+    float alpha = 1, index = 0, random = 0;
+};
+
+/// World to camera (x right, y up, z forward) and to the picture.
+struct CameraFrame {
+    std::array<Vec3f, 3> to_camera{Vec3f{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    Vec3f position;
+    bool orthographic = false;
+    float half_width = 1, aspect = 1; ///< half the picture's width, at depth 1 or, if orthographic, anywhere
+    Vec2f shift;
+};
+
+/// How a place was reached.
+enum RayFlags : uint32_t {
+    kCameraRay = 1,
+    kShadowRay = 2,
+    kDiffuseRay = 4,
+    kGlossyRay = 8,
+    kSingularRay = 16,
+    kReflectionRay = 32,
+    kTransmissionRay = 64
+};
+
+struct ShaderGlobals {
+    Vec3f position;            ///< in the world
+    Vec3f normal, true_normal; ///< unit, on the viewer's side
+    Vec3f incoming;            ///< unit, to the viewer
+    Vec3f object_position;
+    Vec3f dpdx, dpdy;   ///< two tangents as long as the picture's pixels are apart here
+    float u = 0, v = 0; ///< barycentrics of vertices 1 and 2
+    Vec2f dudx, dudy;   ///< changes of (u, v) along dpdx and dpdy
+    bool backfacing = false;
+    uint32_t triangle = 0;
+    const std::array<uint32_t, 3> *vertices = nullptr; ///< of the triangle; null: no mesh
+    std::span<const AttributeView> attributes;         ///< by the scene's numbers of names
+    const Vec3f *vertex_normals = nullptr;             ///< null: flat
+    const ObjectFrame *object = nullptr;               ///< null: a sky
+    const CameraFrame *camera = nullptr;
+    float material_index = 0;
+    uint32_t ray = kCameraRay;
+    float ray_length = 0, ray_depth = 0;
+};
+
+} // namespace glimmer

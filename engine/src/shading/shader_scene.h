@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything of a scene that shader programs look at, and the materials that they are for.
+#pragma once
+
+#include "geometry/accel.h"
+#include "light/varying_emission.h"
+#include "shading/closure_arena.h"
+#include "shading/material_tree.h"
+#include "shading/program.h"
+#include "shading/shading.h"
+#include "shading/shading_point.h"
+
+#include <memory>
+#include <optional>
+
+namespace glimmer {
+
+/// A material of which programs give something.
+struct VaryingMaterial {
+    uint32_t root = 0;                 ///< of ShaderScene::nodes
+    std::vector<uint32_t> programs;    ///< that it needs
+    std::vector<uint32_t> first_value; ///< by program: where its outputs stand among those of all `programs`
+    uint32_t value_count = 0;
+    std::optional<ParameterBinding> normal;
+    bool shines = false; ///< somewhere, for all that is known
+};
+
+class ShaderScene : public VaryingEmission {
+  public:
+    std::vector<MaterialDescription> nodes;              ///< without their bindings
+    std::vector<std::vector<ParameterBinding>> bindings; ///< by node
+    std::vector<std::shared_ptr<const Program>> programs;
+    std::vector<VaryingMaterial> materials;
+    std::vector<uint32_t> varying_of; ///< by material of the scene: of `materials`; kNone: it does not vary
+    Vec3d origin;
+    const Accel *geometry = nullptr;
+    CameraFrame camera;
+    float pixel_width = 0;                               ///< of a pixel at depth 1, or anywhere
+    std::vector<ObjectFrame> frames;                     ///< by instance
+    std::vector<std::vector<AttributeView>> attributes;  ///< by object, by number of a name
+    std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot
+    std::vector<uint32_t> sphere_materials;              ///< by sphere
+    std::optional<ParameterBinding> sky;                 ///< the radiance of the environment
+
+    /// Prepares a material of the scene that varies. Throws Error where it has too many parts.
+    void add(uint32_t material);
+
+    /// The closures of a place, written into the arena; the shading normal may turn. `emission`: what it sends to
+    /// view.wo.
+    [[gnu::noinline]] Shading shade(uint32_t varying, Interaction &surface, const View &view,
+                                    ClosureArena &arena) const;
+
+    Rgb of_triangle(uint32_t instance, uint32_t primitive, Vec2f uv, const Vec3f &wo) const override;
+    Rgb of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const override;
+    Rgb of_sky(const Vec3f &direction) const override;
+
+    /// The mean radiance of a triangle or sphere over a few places, seen along its normal.
+    Rgb mean_of_triangle(uint32_t instance, uint32_t primitive) const;
+    Rgb mean_of_sphere(uint32_t sphere) const;
+
+  private:
+    struct Place {
+        ShaderGlobals globals;
+        ObjectFrame sphere;
+    };
+    float pixel_at(const Vec3f &from_camera) const;
+    void set_place(Place &place, const Interaction &surface, const View &view) const;
+    /// What the programs of a material give at a place.
+    std::span<const Vec3f> evaluate(const VaryingMaterial &material, const Interaction &surface,
+                                    const View &view) const;
+    Rgb emission(uint32_t varying, const Interaction &surface, const View &view) const;
+    Interaction on_triangle(uint32_t instance, uint32_t primitive, Vec2f uv) const;
+};
+
+} // namespace glimmer

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every node and its options, as emission, shows in Glimmer what it shows in Cycles, pixel by pixel."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hosts import Host
+
+SCRIPT = Path(__file__).with_name("shading_script.py")
+
+# The part of a patch's pixels that may differ: cells of a texture meet there, and rounding decides which one a pixel
+# shows. What is not named here has edges nowhere, or few.
+EDGES = {
+    "Closest": 0.08,
+    "white noise": 0.08,
+    "WRAP": 0.14,
+    "MODULO": 0.13,
+    "SNAP": 0.12,
+    "TANGENT": 0.12,
+    "PINGPONG": 0.08,
+    "image BOX": 0.05,
+    "HUE": 0.08,
+}
+FEW = 0.05
+
+# Where Glimmer differs from Cycles, and why; the others are told apart from these by their values alone.
+KNOWN: dict[str, str] = {}
+
+
+@pytest.fixture(scope="module", params=["noises", "voronois", "patterns", "numbers", "colors", "images", "surfaces"])
+def found(request: pytest.FixtureRequest, host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    path = tmp_path_factory.mktemp(request.param) / "facts.json"
+    host.run_script(SCRIPT, str(path), request.param)
+    result: dict[str, Any] = json.loads(path.read_text())
+    return result
+
+
+def test_nodes_show_what_they_show_in_cycles(found: dict[str, Any]) -> None:
+    assert len(found["cases"]) > 20
+    wrong = {}
+    for name, case in found["cases"].items():
+        allowed = next((part for words, part in EDGES.items() if words in name), FEW)
+        if case["off"] > allowed and name not in KNOWN:
+            wrong[name] = case
+    assert not wrong, json.dumps(wrong, indent=1)
+
+
+def test_nothing_is_told_to_be_left_out(found: dict[str, Any]) -> None:
+    assert found["report"]["export"]["notices"] == []
+    assert "no textures: no shader programs" not in found["report"]["left_out"]
