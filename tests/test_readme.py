@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the README tells people to type works."""
+"""What the README and the pages beside it tell people to type works."""
 
 import os
 import re
@@ -13,8 +13,15 @@ import pytest
 import build
 
 ROOT = Path(__file__).resolve().parent.parent
-README = (ROOT / "README.md").read_text()
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+README = ROOT / "README.md"
+PAGES = (README, *sorted(ROOT.glob("engine/docs/*.md")), *sorted(ROOT.glob("addon/docs/*.md")))
+
+
+def blocks_of(page: Path) -> list[tuple[str, str]]:
+    return re.findall(r"^```(\w+)\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+
+
+BLOCKS = [block for page in PAGES for block in blocks_of(page)]
 
 
 def words_of(line: str) -> list[str]:
@@ -31,13 +38,18 @@ def commands_of(program: str) -> list[list[str]]:
 
 
 def test_the_first_screen_has_exactly_the_two_commands() -> None:
-    language, text = BLOCKS[0]
+    language, text = blocks_of(README)[0]
     assert language == "sh"
-    assert README[: README.index(text)].count("\n") < 20
+    readme = README.read_text()
+    assert readme[: readme.index(text)].count("\n") < 20
     assert [words_of(line) for line in text.splitlines()] == [
         ["python3", "build.py", "render"],
         ["python3", "build.py", "test"],
     ]
+
+
+def test_the_readme_is_short() -> None:
+    assert len(README.read_text().splitlines()) < 120
 
 
 def test_every_command_is_of_a_kind_that_a_test_here_tries() -> None:
@@ -106,8 +118,11 @@ def test_the_python_example_runs(library_dir: Path) -> None:
     assert result.stdout.strip()
 
 
-def test_every_file_that_is_named_exists() -> None:
-    links = re.findall(r"\]\(([^)#:]+)\)", README)
-    paths = re.findall(r"`((?:engine|addon|blend_scenes|tests|\.ci)/[\w./]*)`", README)
-    assert links and paths
-    assert [path for path in [*links, *paths] if not (ROOT / path).exists()] == []
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_file_that_is_named_exists(page: Path) -> None:
+    text = page.read_text()
+    links = re.findall(r"\]\(([^)#:]+)", text)
+    paths = re.findall(r"`((?:engine|addon|blend_scenes|tests|\.ci)/[\w./]*)`", text)
+    assert links or paths or page != README
+    assert [link for link in links if not (page.parent / link).exists()] == []
+    assert [path for path in paths if not (ROOT / path).exists()] == []
