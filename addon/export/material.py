@@ -55,8 +55,8 @@ def export_material(
     images: Images | None = None,
     constants_only: bool = False,
 ) -> NamedMaterial:
-    """object_name: the first object that uses it, for notices. version: Blender's. constants_only: what varies becomes a
-    constant."""
+    """object_name: the first object that uses it, for notices. version: Blender's. constants_only: what varies
+    becomes a constant."""
     if material is None:
         return NamedMaterial("default", DEFAULT_SURFACE)
     where = place(object_name, material.name)
