@@ -28,7 +28,7 @@ def facts(host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any
 
 
 def material(facts: dict[str, Any], name: str, group: str = "nodes") -> tuple[Material, list[str]]:
-    names = {kind.__name__: kind for kind in (Lambert, Conductor, Glass, Mix, Output)}
+    names = {kind.__name__: kind for kind in (Add, Conductor, Glass, Lambert, Mix, Output, Translucent, Transparent)}
     found = facts[group][name]
     return eval(found["is"], names), found["notices"]
 

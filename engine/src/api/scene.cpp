@@ -100,6 +100,8 @@ void glimmer_object_init(glimmer_object_desc *desc) {
     *desc = {};
     desc->struct_size = sizeof *desc;
     std::memcpy(desc->to_world, kIdentity, sizeof kIdentity);
+    for (float &c : desc->color)
+        c = 1;
 }
 
 glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_object_desc *desc) {
@@ -133,6 +135,15 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         if (out.object_indices.size() < 2)
             out.object_indices.assign(1, d.object_indices && !out.instances.empty() ? d.object_indices[0]
                                                                                     : d.object_index);
+        for (float c : d.color)
+            check_finite(double(c), what + ": color");
+        out.color = {d.color[0], d.color[1], d.color[2]};
+        out.opacity = d.color[3];
+        out.randoms.assign(1, d.random);
+        if (d.randoms && d.instances)
+            out.randoms.assign(d.randoms, d.randoms + out.instances.size());
+        for (float r : out.randoms)
+            check_finite(double(r), what + ": random");
         s.objects.push_back(std::move(out));
     });
 }
