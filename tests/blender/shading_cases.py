@@ -387,7 +387,7 @@ def surfaces() -> Iterator[Case]:
 
         def transform(tree: Any, kind: str = kind, source: str = source, target: str = target) -> Any:
             settings = Values({"vector_type": kind, "convert_from": source, "convert_to": target})
-            return make(tree, "ShaderNodeVectorTransform", inputs={0: (0.3, -0.2, 0.9)}, **settings)
+            return make(tree, "ShaderNodeVectorTransform", inputs={"Vector": (0.3, -0.2, 0.9)}, **settings)
 
         yield f"transform {kind} {source} {target}", transform
     for space in enumeration("ShaderNodeNormalMap", "space"):

@@ -25,8 +25,9 @@ EDGES = {
 }
 FEW = 0.05
 
-# Where Glimmer differs from Cycles, and why; the others are told apart from these by their values alone.
-KNOWN: dict[str, str] = {}
+# Where Glimmer differs from the newest Cycles: images whose colours are multiplied by their alpha come out brighter or
+# darker since some Blender after 5.0. Why is not known yet; addon/docs/using.md says so.
+KNOWN_IN_NEWEST = ("image premultiplied", "image floats with alpha")
 
 
 @pytest.fixture(scope="module", params=["noises", "voronois", "patterns", "numbers", "colors", "images", "surfaces"])
@@ -37,12 +38,13 @@ def found(request: pytest.FixtureRequest, host: Host, tmp_path_factory: pytest.T
     return result
 
 
-def test_nodes_show_what_they_show_in_cycles(found: dict[str, Any]) -> None:
+def test_nodes_show_what_they_show_in_cycles(found: dict[str, Any], host: Host) -> None:
     assert len(found["cases"]) > 20
     wrong = {}
     for name, case in found["cases"].items():
         allowed = next((part for words, part in EDGES.items() if words in name), FEW)
-        if case["off"] > allowed and name not in KNOWN:
+        known = host.kind == "newest" and name.startswith(KNOWN_IN_NEWEST)
+        if case["off"] > allowed and not known:
             wrong[name] = case
     assert not wrong, json.dumps(wrong, indent=1)
 

@@ -51,10 +51,11 @@ def vector_rotate(nodes: Nodes, source: Source) -> Value:
 
 def vector_transform(nodes: Nodes, source: Source) -> Value:
     node = source.node
+    vector = node.inputs.find("Vector")  # the first input until 5.2
     if node.convert_from == node.convert_to and nodes.version >= (4, 0):
-        return nodes.input(source, 0)  # where an older Blender makes normals as long as 1
+        return nodes.input(source, vector)  # where an older Blender makes normals as long as 1
     modes = (node.vector_type.lower(), node.convert_from.lower(), node.convert_to.lower())
-    return op("vector_transform", triple(nodes.input(source, 0)), modes=modes)
+    return op("vector_transform", triple(nodes.input(source, vector)), modes=modes)
 
 
 def normal_node(nodes: Nodes, source: Source) -> Value:
