@@ -53,15 +53,16 @@ uint32_t find_row(const char *key, const MaterialDescription &material, bool is_
         known += (known.empty() ? "" : ", ") + std::string(name);
         return false;
     };
-    // What is mixed with nothing refracts, or is not there at all.
-    const bool may_vary = material.type != MaterialType::glass && material.type != MaterialType::null;
-    for (uint32_t i = 0; may_vary && i < kParameters.size(); ++i) {
+    for (uint32_t i = 0; i < kParameters.size(); ++i) {
         const glimmer_parameter_info_t &info = kParameters[i].info;
-        if (kParameters[i].type == material.type && (info.kind == GLIMMER_NUMBER || info.kind == GLIMMER_COLOR) &&
+        const bool of_a_body = material.type == MaterialType::glass && std::string_view(info.key) == "ior";
+        if (kParameters[i].type == material.type && !of_a_body &&
+            (info.kind == GLIMMER_NUMBER || info.kind == GLIMMER_COLOR) &&
             consider(info.key, info.kind == GLIMMER_NUMBER))
             return i;
     }
-    if (may_vary && material.type != MaterialType::light && consider("normal", false))
+    const bool has_normal = material.type != MaterialType::light && material.type != MaterialType::null;
+    if (has_normal && consider("normal", false))
         return ParameterBinding::kNormal;
     std::string message = what + ": \"";
     message += wanted;
