@@ -206,7 +206,7 @@ def test_a_scene_is_measured(
         render(self, scene, room, task)
 
     monkeypatch.setattr(Glimmer, "_render", counted)
-    lost = next(folder.glob("report-*")) / "4_2.json"
+    lost = next(folder.glob("baseline-*")) / "4_2.json"
     lost.unlink()
     again, _ = measure(SCENES[0], plan, tools, folder)
     assert rendered == [Task(4, 2)]

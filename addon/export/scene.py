@@ -144,6 +144,8 @@ class _Collector:
         settings = getattr(item.original, "glimmer", None)
         if settings is not None and settings.is_sphere and self._add_spheres(item, matrices):
             return
+        if item.type == "MESH" and not item.data.polygons:
+            return  # and its materials are nobody's
         slots = [slot.material for slot in item.material_slots] or [None]
         materials = tuple(self._material(material, item.name) for material in slots)
         mesh = self._mesh(item, len(slots), self._attributes(materials))

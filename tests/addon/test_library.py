@@ -65,8 +65,12 @@ def test_materials_are_the_engines(library_dir: Path) -> None:
             if row.required and not row.alternative:
                 assert own[key].default is MISSING, f"{kind}: {key} is required"
             elif key in own and own[key].default is not None:
-                value = row.value if row.kind is structs.ParameterKind.NUMBER else (row.value,) * 3
-                assert own[key].default == value, f"{kind}: {key}"
+                of_kind = {
+                    structs.ParameterKind.NUMBER: row.value,
+                    structs.ParameterKind.COLOR: (row.value,) * 3,
+                    structs.ParameterKind.WORD: (*row.words, None)[0],
+                }
+                assert own[key].default == of_kind[row.kind], f"{kind}: {key}"
 
 
 def test_the_scene_formats_table_is_the_engines(repository: Path, library_dir: Path) -> None:
@@ -77,9 +81,9 @@ def test_the_scene_formats_table_is_the_engines(repository: Path, library_dir: P
     rows = {kind: row for kind, row in re.findall(r"^\| `(\w+)` \| (.*) \|$", section, re.MULTILINE) if kind != "type"}
     assert set(rows) == set(table)
     with_emission = {kind for kind, parameters in table.items() if "emission" in parameters}
-    listed = re.search(r"is allowed on (all but )?([\w,\s]+?)\.", section[section.rindex("|") :])
+    listed = re.search(r"is allowed on (all\s+but\s+)?([\w,\s]+?)\.", section[section.rindex("|") :])
     assert listed is not None
-    named = set(re.split(r",\s+|\s+and\s+", listed[2]))
+    named = set(re.split(r",\s+|\s+and\s+", listed[2].strip()))
     assert (set(table) - named if listed[1] else named) == with_emission
     for kind, parameters in table.items():
         keys = set(re.findall(r"`(\w+)`", rows[kind])) - set(table) - {"true", "false"}

@@ -26,12 +26,17 @@ from tests.bench.scenes import SCENES
 
 Costs = NDArray[np.float64]
 
-HEADERS = ("integrator/vpl/tuning.h", "integrator/roulette.h")  # of engine/src
+HEADERS = (  # of engine/src
+    "integrator/direct/tuning.h",
+    "integrator/path/tuning.h",
+    "integrator/roulette.h",
+    "integrator/vpl/tuning.h",
+)
 SIZE = (96, 54)
 SAMPLES = 4
 BLOCK = 16
 _DEFAULT_SCENES = ("moons_in_fog", "glimmervoid", "thick_fog")
-_ROW = re.compile(r"GLIMMER_TUNABLE_CONSTANT\((float|uint32_t), (k\w+), (.+)\);")
+_ROW = re.compile(r"GLIMMER_TUNABLE_CONSTANT\((float|double|uint32_t), (k\w+), (.+)\);")
 
 
 @dataclass(frozen=True)

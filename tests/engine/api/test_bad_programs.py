@@ -129,7 +129,12 @@ def test_what_cannot_be_bound_is_refused(scene: c_void_p) -> None:
     refused(bind(scene, lambert, b"emission", program + 1), ARGUMENT, f"program {program + 1} was not added")
     refused(bind(scene, lambert, b"emission", program, 2), ARGUMENT, "output 2 of 2")
     refused(bind(scene, lambert, b"emission", program, 1), ARGUMENT, "emission is a colour or vector")
-    refused(bind(scene, lambert, b"alpha", program, 1), ARGUMENT, '"alpha" cannot vary', "albedo, emission, normal")
+    refused(
+        bind(scene, lambert, b"alpha", program, 1),
+        ARGUMENT,
+        '"alpha" cannot vary',
+        "albedo, roughness, emission, normal",
+    )
     refused(bind(scene, lambert, None, program), ARGUMENT, '"" cannot vary')
     refused(bind(scene, conductor, b"alpha", program, 0), ARGUMENT, "alpha is a number")
     assert bind(scene, conductor, b"alpha", program, 1) == OK
