@@ -12,6 +12,8 @@ from tests.render.build import WHITE, Array, Builder, camera, floor, grey
 from tests.render.statistics import Measurement, Pictures, check_same
 from tests.render.test_integrators_agree import field
 
+pytestmark = pytest.mark.timeout(900)  # some of its scenes take minutes on a busy machine
+
 SHARED = "light vertices"
 
 

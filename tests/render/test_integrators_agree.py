@@ -12,6 +12,8 @@ from tests.engine.library import Scene, engine, rendering
 from tests.render.build import WHITE, Array, Builder, camera, floor, grey, hexagon, look_at, octahedron, quad, sky
 from tests.render.statistics import Measurement, Pictures, blocks, check_same
 
+pytestmark = pytest.mark.timeout(900)  # some of its scenes take minutes on a busy machine
+
 PLATE = d.Mix(0.25, d.Lambert((0.5, 0.5, 0.55)), d.Conductor(0.25, eta=(2.6, 2.4, 2.2), k=(3.3, 3.1, 2.9)))
 
 
