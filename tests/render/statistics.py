@@ -28,7 +28,7 @@ Array = NDArray[Any]
 
 LEVEL = 1e-3
 """Probability that a correct engine is rejected anywhere once, had the seeds not been fixed."""
-COMPARISONS = 3200
+COMPARISONS = 6400
 """Numbers that may be compared in one run of all tests."""
 INTEGRATORS = ("path", "baseline")
 ROUNDING = 64 * 2.0**-24
