@@ -451,7 +451,7 @@ typedef struct glimmer_progress {
     double cpu_seconds;
     double relmse, relmse_low, relmse_high; /* NaN when not known; the interval holds at all looks at once */
     uint64_t rays;
-    uint64_t peak_bytes;      /* of the scene with its BVHs, the film, and what the passes of a batch share */
+    uint64_t peak_bytes;      /* of the scene with its BVHs, the film, and what the pixels of the open waves share */
     uint64_t invalid_samples; /* NaN or infinite, left out of the means and named in the report */
     uint64_t version;         /* grows whenever a pixel changed */
     /* Of the error, one pixel (x, y of the crop) of one replicate carries this share; NaN when not known. Above 0.1 the

@@ -37,9 +37,9 @@ class Integrator {
     virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
                               TraceContext &trace) const = 0;
 
-    /// The code that runs, in plain words.
+    /// Names the code that runs, for the report.
     virtual std::string kernel() const = 0;
-    /// What the scene has no use for, one line each.
+    /// The features that the scene does not need and the code therefore lacks, one line each, for the report.
     virtual std::vector<std::string> left_out() const = 0;
 };
 

@@ -25,9 +25,10 @@ class WalkGuard {
     }
 
   private:
-    /// Hours of work: reached by no walk that still brings anything.
+    /// So many vertices take hours. No walk that still brings anything reaches this number.
     static constexpr uint64_t kMaxVertices = 1ull << 32;
-    /// Vertices between looks at the flag: well below a millisecond, and too seldom to cost anything.
+    /// So many vertices pass between two looks at the flag: less than a millisecond of work, and yet the look is too
+    /// rare to cost anything.
     static constexpr uint64_t kCancelCheckInterval = 4096;
 
     const TraceContext &trace_;

@@ -54,7 +54,7 @@ struct LampHit {
 };
 
 /// A ray that carries `power` away from a light, in the sense that the mean over samples of power, spread along the
-/// rays, is the light's own. t_max: how far it is that light's (the inside of a see-through ball).
+/// rays, is the light's own. t_max: how far it is that light's (the inside of a see-through sphere).
 struct Emission {
     Ray ray;
     Rgb power;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A see-through ball that shines, or a spot of that kind: its radiance is uniform, but for the cone.
+// A see-through sphere that shines, or a spot of that kind: its radiance is uniform, but for the cone.
 #pragma once
 
 #include "geometry/sphere.h"

@@ -57,7 +57,7 @@ struct HomogeneousMedium {
         return least < kInfinity ? least : 0;
     }
 
-    /// (R / r)^2 e^(-kappa (r - R)) of a ball that is a mean free path larger; no path dies faster than on its way.
+    /// (R / r)^2 e^(-kappa (r - R)) of a sphere that is a mean free path larger; no path dies faster than on its way.
     float return_probability(float radius, float distance) const {
         float most = 0; // of the channels: a path goes on in whichever carries it furthest
         for (int c = 0; c < 3; ++c) {
@@ -184,7 +184,7 @@ inline Rgb collision_densities(const HomogeneousMedium &m, const Rgb &share, flo
 /// samples nothing. Of several channels the density is the mixture with shares beta_c / sum(beta). A channel that does
 /// not scatter keeps its share and always passes: without it the light it carries past a thick medium of another
 /// channel would have no bounded weight. In every channel beta_c weight_c <= sum(beta). A channel with beta_c = 0 gets
-/// weight 0. bits_channel is not used by a grey medium; bits_t as in truncated_exponential.
+/// weight 0. bits_channel is not used by a monochromatic medium; bits_t as in truncated_exponential.
 inline FreeFlight sample_free_flight(const HomogeneousMedium &m, const Rgb &beta, float t_max, float u_channel,
                                      uint64_t bits_t) {
     if (!m.scatters() || is_black(beta))

@@ -89,7 +89,7 @@ class Medium {
     float least_absorption() const {
         return visit([](const auto &m) { return m.least_absorption(); });
     }
-    /// A bound on the chance that light `distance` away from the middle of a ball of that radius comes back to it, if
+    /// A bound on the chance that light `distance` away from the middle of a sphere of that radius comes back to it, if
     /// the medium has no end.
     float return_probability(float radius, float distance) const {
         return visit([&](const auto &m) { return m.return_probability(radius, distance); });

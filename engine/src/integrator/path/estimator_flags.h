@@ -22,7 +22,7 @@ struct EstimatorFlags {
     bool equiangular = true;
     /// The same for all later segments.
     bool deep_equiangular = true;
-    /// Roulette spares paths until little is left of them; else it starts at once. (roulette.h)
+    /// Roulette ends no path before its weight has fallen to a fraction of one (roulette.h); else it starts at once.
     bool late_roulette = true;
     /// Where bevels glint, several points of a pixel compete for being lit; else one is lit. (pixel_ris.inl)
     bool pixel_ris = true;

@@ -16,7 +16,7 @@ struct PathContext {
     const DepthLimits &limits;
     const EstimatorFlags &flags;
     const SplittingPlan &plan;
-    const LightVertexBlock *light_vertices; ///< of the pixel's block; null: light scattered twice comes from paths
+    const LightVertexBlock *light_vertices; ///< of the pixel's block; null where paths bring all scattered light
     uint32_t pixel_x, pixel_y;
     /// Part of the radiance of an emissive sphere that the camera's own ray brings; emitter_rays.h brings the rest.
     float primary_weight;

@@ -53,7 +53,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
         if (!light->delta && !has_light_vertices()) { // nothing else meets lights from gather points
             float p_distance = split ? medium.collision_pdf(state.ray, state.beta, end, at.t)
                                      : medium.free_flight_pdf(state.ray, state.beta, at.t);
-            if (p_distance > 0) { // times the probability that roulette spares a path that scatters there
+            if (p_distance > 0) { // times the probability that a path which scatters there survives roulette
                 const Rgb at_collision =
                     state.beta * medium.scattering(x) * medium.transmittance(state.ray, at.t) * (1 / p_distance);
                 p_distance *= survival(at_collision, state.rr_scale, x, kRouletteScaleInMedium);

@@ -99,9 +99,9 @@ class PathSample {
         }
         return direct ? result_.direct : result_.indirect;
     }
-    /// For emission that the segment meets.
+    /// The AOV that emission met by the segment counts for.
     Rgb &aov_of_emission(const State &state) { return light_aov(state.path_class, state.depth_since_first == 1); }
-    /// For light that a vertex at the segment's end, or on it, scatters along it.
+    /// The AOV of light that a vertex on the segment or at its end scatters towards the camera.
     Rgb &aov_of_scattering(const State &state, PathClass vertex) {
         return state.seen_directly() ? light_aov(vertex, true) : light_aov(state.path_class, false);
     }
@@ -162,7 +162,7 @@ class PathSample {
         choice.probability *= float(choices(several));
         return choice;
     }
-    /// The same number for a given light.
+    /// The expected number of samples that choose() spends on a given light.
     template <class... Place>
     float expected_samples(bool several, uint32_t light, const Place &...place) const {
         if (every_light(several))

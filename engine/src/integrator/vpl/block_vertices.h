@@ -43,9 +43,9 @@ class BlockVertices {
     /// `connections.total` less what a shadow ray to one vertex, chosen by its part of the sum, shows to be hidden.
     Rgb correct_visibility(const GatherQuery &point, const Connections &connections, float left,
                            TraceContext &rays) const;
-    /// The same where that vertex is in the medium.
+    /// correct_visibility() where the chosen vertex is in the medium.
     Rgb correct_medium(const GatherQuery &point, const Connections &connections, float left, TraceContext &rays) const;
-    /// The same for a vertex that brings `value` along `ray`, with `part` as its part of the sum.
+    /// The correction for a chosen vertex that brings `value` along `ray` and makes up `part` of the sum.
     Rgb correct(const Connections &connections, const Rgb &value, float part, const Ray &ray, TraceContext &rays) const;
 
     const Scene &scene_;

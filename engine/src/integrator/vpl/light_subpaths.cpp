@@ -63,7 +63,7 @@ class LightSubpath {
             return;
         const auto hit = scene_.accel->intersect(path.ray);
         ++rays_.rays;
-        const float own_end = path.ray.t_max; // finite only within a see-through ball light, where the ray ends
+        const float own_end = path.ray.t_max; // finite only within a see-through sphere light, where the ray ends
         path.ray.t_max = kInfinity;
         if (const Medium *medium = path.interior.medium(scene_.outside())) {
             const float end = hit ? hit->t : own_end;
@@ -142,7 +142,7 @@ class LightSubpath {
         });
     }
 
-    /// t_max: how far behind the surface the light would still be its ball light's.
+    /// t_max: how far behind the surface the light would still be that of its sphere light.
     void meet_surface(Branch &path, const Hit &hit, float t_max) {
         Interaction surface = scene_.interaction(path.ray, hit);
         arena_.clear();
@@ -261,9 +261,10 @@ class LightSubpath {
         const Vec3f incoming = frame.to_local(v.incoming);
         if (!(incoming.z > 0))
             return false;
-        const float cosine_share = bent && !is_specular(bsdf) ? tuning::kTrueNormalShare : 0;
-        const float mirror_share =
-            bent && about_shading && has_specular(bsdf) && mirrors_beneath_horizon(v) ? tuning::kTrueMirrorShare : 0;
+        const float cosine_share = bent && !is_specular(bsdf) ? tuning::kGeometricNormalShare : 0;
+        const float mirror_share = bent && about_shading && has_specular(bsdf) && mirrors_beneath_horizon(v)
+                                       ? tuning::kGeometricMirrorShare
+                                       : 0;
         const float bsdf_share = 1 - cosine_share - mirror_share, u_way = bent ? sampler_.next_1d() : 1;
         if (u_way < mirror_share) {
             const Frame true_frame(v.geometric);
@@ -342,9 +343,9 @@ class LightSubpath {
         DielectricCrossing crossing(surface, shading.interior_ior, path.ray.direction, path.interior);
         const bool bent = !(crossing.shading == crossing.geometric);
         if (bent && crossing.about_shading && crossing.may_leave_beneath_horizon()) {
-            const bool on_shading = sampler_.next_1d() < 1 - tuning::kTrueDielectricShare;
+            const bool on_shading = sampler_.next_1d() < 1 - tuning::kGeometricDielectricShare;
             crossing.shade(on_shading);
-            path.power *= 1 / (on_shading ? 1 - tuning::kTrueDielectricShare : tuning::kTrueDielectricShare);
+            path.power *= 1 / (on_shading ? 1 - tuning::kGeometricDielectricShare : tuning::kGeometricDielectricShare);
         }
         Bsdf bsdf = shading.bsdf;
         bsdf.eta = crossing.eta;

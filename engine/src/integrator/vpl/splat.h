@@ -39,7 +39,7 @@ bool is_in_picture(const Scene &scene, const Ray &ray);
 
 /// Joins points of the segment (Camera::sample_seen) with random points of the lens (Dutre, Lafortune, Willems 1993)
 /// and appends the splats:
-///     radiance = power sigma_s T(segment) / pdf * phase * T(t) / A * filter,
+///     radiance = power remainder sigma_s T(segment) / pdf * phase * T(t) * splat_fraction / A * filter,
 /// with A the area that a pixel sees there, t^2 d omega for a perspective camera, in every pixel whose filter holds the
 /// image of the point.
 void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings &settings, Sampler &sampler,

@@ -104,11 +104,11 @@ GLIMMER_TUNABLE_CONSTANT(uint32_t, kSplatDirections, 32);
 GLIMMER_TUNABLE_CONSTANT(float, kMostSplatWeight, 64);
 /// Points on one segment that are splatted. Chosen.
 GLIMMER_TUNABLE_CONSTANT(uint32_t, kSplatPoints, 2);
-/// Shares of the samples that are drawn about the true normal where it differs from the shading normal: of rough
+/// Shares of the samples that are drawn about the geometric normal where the shading normal differs: of rough
 /// lobes, of mirrors, of dielectrics. Chosen; any value in (0, 1) is correct.
-GLIMMER_TUNABLE_CONSTANT(float, kTrueNormalShare, 0.125f);
-GLIMMER_TUNABLE_CONSTANT(float, kTrueMirrorShare, 0.25f);
-GLIMMER_TUNABLE_CONSTANT(float, kTrueDielectricShare, 0.5f);
+GLIMMER_TUNABLE_CONSTANT(float, kGeometricNormalShare, 0.125f);
+GLIMMER_TUNABLE_CONSTANT(float, kGeometricMirrorShare, 0.25f);
+GLIMMER_TUNABLE_CONSTANT(float, kGeometricDielectricShare, 0.5f);
 
 // -- Picking the vertices of a block (section 7)
 
