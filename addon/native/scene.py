@@ -162,6 +162,10 @@ class NativeScene:
         desc.random = float(randoms[0])
         if matrices is not None and len(randoms) == len(matrices):
             desc.randoms = _pointer(randoms)
+        motion = None
+        if item.motion is not None:
+            motion = np.ascontiguousarray(item.motion, np.float64)
+            desc.motion_count, desc.motion = len(motion), _pointer(motion)
         self.library.call("glimmer_scene_add_object", self.handle, byref(desc))
 
     def _add_spheres(self, spheres: d.Spheres, materials: list[int]) -> None:

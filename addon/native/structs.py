@@ -188,6 +188,8 @@ class ObjectDesc(ctypes.Structure):
         ("color", c_float * 4),
         ("random", c_float),
         ("randoms", c_void_p),
+        ("motion", c_void_p),
+        ("motion_count", c_size_t),
     ]
 
 

@@ -234,6 +234,7 @@ class Object:
     object_index: int = 0
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)  # with alpha: what shader programs know
     random: float | Floats = 0.0  # 0 to 1; (n,): one an instance
+    motion: Floats | None = None  # (steps, 4, 4), evenly spaced while the shutter is open, in place of to_world
 
 
 @dataclass(frozen=True, eq=False)

@@ -92,7 +92,10 @@ class _Writer:
             result["material"] = names[0]
         else:
             result["materials"] = names
-        result["to_world"] = _numbers(item.to_world)
+        if item.motion is None:
+            result["to_world"] = _numbers(item.to_world)
+        else:
+            result["motion"] = [_numbers(step) for step in item.motion]
         if item.instances is not None:
             result["instances"] = self._save("instances", item.instances)
         if item.object_index:

@@ -37,7 +37,7 @@ Rgb block_sum(const BlockWorld &w, uint32_t index, const Trace &trace) {
         for (uint32_t x = w.pixels.x; x < w.pixels.x + w.pixels.width; ++x) {
             Sampler sampler(1, x, y, 0, index);
             sum += trace(sample_camera_ray(w.scene, x, y, sampler.stratified_2d(dimension(Dimension::film)),
-                                           sampler.stratified_2d(dimension(Dimension::lens))),
+                                           sampler.stratified_2d(dimension(Dimension::lens)), {}),
                          sampler)
                        .radiance();
         }

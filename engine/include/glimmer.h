@@ -256,6 +256,11 @@ typedef struct glimmer_object_desc {
     float color[4];                 /* what shader programs know as the object's colour and alpha; default 1 1 1 1 */
     float random;                   /* what they know as its own number, 0 to 1 */
     const float *randoms;           /* (instance_count) of them, or null */
+    /* Motion while the shutter is open: (motion_count, 4, 4) matrices in place of to_world, at moments evenly spaced
+     * from when it opens to when it closes; between them they are interpolated. null (the default): still. What shines
+     * is held still, with a warning. */
+    const double *motion;
+    size_t motion_count; /* 2 to 1024, used when motion is not null */
 } glimmer_object_desc;
 
 GLIMMER_API void glimmer_object_init(glimmer_object_desc *desc);

@@ -22,7 +22,7 @@ static Camera camera(const probe_camera &c) {
 /// film, lens [n, 2]; rays [n, 7]: origin, direction, length.
 PROBE void probe_camera_generate(const probe_camera *c, const float *film, const float *lens, uint64_t n, float *rays) {
     for (uint64_t i = 0; i < n; ++i) {
-        const Ray ray = camera(*c).generate(load2(film + 2 * i), load2(lens + 2 * i)).ray;
+        const Ray ray = camera(*c).generate(load2(film + 2 * i), load2(lens + 2 * i), {}).ray;
         store(rays + 7 * i, ray.origin);
         store(rays + 7 * i + 3, ray.direction);
         rays[7 * i + 6] = ray.t_max;
@@ -49,7 +49,7 @@ PROBE void probe_camera_project(const probe_camera *c, const float *x, const flo
 PROBE void probe_camera_clip(const probe_camera *c, const float *rays, const float *film, uint64_t n, float *parts) {
     for (uint64_t i = 0; i < n; ++i) {
         const float *r = rays + 7 * i;
-        const RayInterval part = camera(*c).clip({load3(r), load3(r + 3), r[6]}, {load2(film), load2(film + 2)});
+        const RayInterval part = camera(*c).clip({load3(r), load3(r + 3), {}, r[6]}, {load2(film), load2(film + 2)});
         store(parts + 2 * i, Vec2f{part.begin, part.end});
     }
 }
@@ -59,7 +59,7 @@ PROBE void probe_camera_sample_seen(const probe_camera *c, const float *ray, con
                                     const float *u, uint64_t n, float *t, float *pdf) {
     for (uint64_t i = 0; i < n; ++i) {
         const PointOnRay at =
-            camera(*c).sample_seen({load3(ray), load3(ray + 3), ray[6]}, {part[0], part[1]}, extinction, u[i]);
+            camera(*c).sample_seen({load3(ray), load3(ray + 3), {}, ray[6]}, {part[0], part[1]}, extinction, u[i]);
         t[i] = at.t, pdf[i] = at.pdf;
     }
 }

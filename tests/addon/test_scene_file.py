@@ -103,6 +103,9 @@ VARIANTS = {
     "fog": replace(SCENE, medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4)),
     "image": replace(SCENE, environment=d.Environment((0.7, 0.7, 0.7), picture(), place(0, 0, 0, 0.8))),
     "orthographic": replace(SCENE, camera=replace(camera(), projection=d.Orthographic(9.0), clip_start=-2.0)),
+    "motion": replace(
+        SCENE, objects=tuple(replace(o, motion=np.stack([o.to_world, place(1, 1, 0.2)])) for o in SCENE.objects[:1])
+    ),
     "empty": replace(SCENE, objects=(), spheres=(), lights=()),
 }
 

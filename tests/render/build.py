@@ -122,8 +122,11 @@ class Builder:
         self._materials.append(d.NamedMaterial(f"material {len(self._materials)}", material))
         return len(self._materials) - 1
 
-    def mesh(self, mesh: d.Mesh, material: d.Material, instances: Array | None = None) -> "Builder":
-        self._objects.append(d.Object(mesh.name, mesh, (self.material(material),), instances=instances))
+    def mesh(
+        self, mesh: d.Mesh, material: d.Material, instances: Array | None = None, motion: Array | None = None
+    ) -> "Builder":
+        number = self.material(material)
+        self._objects.append(d.Object(mesh.name, mesh, (number,), instances=instances, motion=motion))
         return self
 
     def sphere(self, center: ArrayLike, radius: float, material: d.Material) -> "Builder":

@@ -131,6 +131,18 @@ def metal_in_parallel_rays() -> Builder:
     return light_by_way_of_metal().seen_by(view, d.Film(40, 30, (5, 3, 37, 27), "blackman_harris", 1.8))
 
 
+def moving_plates() -> Builder:
+    """Plates and a ball that move far while the shutter is open, and hide the moons from the fog now and then: all
+    pixels of a wave share light vertices that were made at one moment."""
+    rise = np.tile(np.eye(4), (3, 1, 1))
+    rise[:, 2, 3], rise[:, 0, 3] = (0, 1, 3), (0, 2, 1)
+    scene = Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, medium=d.Medium(grey(0.01), grey(0.06)))
+    scene.mesh(hexagon(1, 0.3), PLATE, instances=plates(), motion=rise)
+    scene.mesh(octahedron((0, 4, 0.5), 0.7), d.Conductor(0.03, f0=grey(0.9)), motion=rise)
+    scene.sphere((-3, 11, 4), 1.2, d.Light((3, 0.5, 0.3))).sphere((4, 9, 3), 0.8, d.Light((0.3, 3, 0.5)))
+    return scene.sphere((0.5, 16, 6), 1.5, d.Light((1, 1, 3)))
+
+
 def light_close_above_metal() -> Builder:
     """A layer of fog on smooth metal: half of its light was thrown there from a shorter way than connections count."""
     scene = Builder(camera((3, -3, 0.3), (3, 4, 0.3), 4), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
@@ -208,6 +220,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "glints through a lens": glints_through_a_lens,
     "light by way of metal, in parallel rays": metal_in_parallel_rays,
     "glass in parallel rays, through a lens": lambda: from_a_distance(glass_in_fog()),
+    "moving plates": moving_plates,
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
     "lamps": lamps_in_fog,

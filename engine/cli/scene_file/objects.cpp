@@ -46,7 +46,7 @@ Matrix matrix_or_identity(const Value &value, std::string_view key) {
 
 void read_object(const Value &value, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
                  SceneFolder &folder) {
-    value.expect_object({"mesh", "material", "materials", "to_world", "instances", "index", "indices"});
+    value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices"});
     const std::string name = value.path();
     glimmer_object_desc desc;
     glimmer_object_init(&desc);
@@ -65,6 +65,19 @@ void read_object(const Value &value, glimmer_scene *scene, const Materials &mate
 
     const Matrix to_world = matrix_or_identity(value, "to_world");
     std::copy(to_world.begin(), to_world.end(), desc.to_world);
+    std::vector<double> motion;
+    if (const auto steps = value.find("motion")) {
+        if (value.has("to_world"))
+            value.fail("needs either to_world or motion, which takes its place");
+        steps->for_each([&](const Value &step) {
+            const Matrix matrix = step.matrix();
+            motion.insert(motion.end(), matrix.begin(), matrix.end());
+        });
+        if (motion.size() < 32)
+            steps->fail("has fewer than 2 matrices: as the shutter opens, and as it closes");
+        desc.motion = motion.data();
+        desc.motion_count = motion.size() / 16;
+    }
     if (const auto index = value.find("index"))
         desc.object_index = static_cast<uint32_t>(index->integer(0, UINT32_MAX));
 

@@ -14,9 +14,9 @@ void check_each_least(const T (&values)[N], double low, const std::string &what)
         check_least(double(v), low, what);
 }
 
-void check_affine(const double (&m)[16], const std::string &what) {
-    for (double v : m)
-        check_finite(v, what);
+void check_affine(const double *m, const std::string &what) {
+    for (int i = 0; i < 16; ++i)
+        check_finite(m[i], what);
     if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
         fail_argument(what + ": the last row must be 0 0 0 1");
 }
@@ -59,8 +59,7 @@ void check_light(const glimmer_light_desc &d, const std::string &what) {
     }
 }
 
-std::vector<Affine> place_instances(const glimmer_object_desc &d, const std::string &what) {
-    const Affine to_world = affine_from_rows(d.to_world);
+std::vector<Affine> place_instances(const glimmer_object_desc &d, const Affine &to_world, const std::string &what) {
     if (!d.instances)
         return {to_world};
     std::vector<Affine> out;
@@ -129,7 +128,16 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         if (d.instances && d.instance_count > 0xfffffff0u)
             fail_argument(what + ": instance_count is " + std::to_string(d.instance_count) +
                           "; allowed: up to 4294967280");
-        out.instances = place_instances(d, what);
+        out.instances = place_instances(d, affine_from_rows(d.to_world), what);
+        if (d.motion) {
+            check_range(double(d.motion_count), 2, 1024, what + ": motion_count");
+            for (size_t k = 0; k < d.motion_count; ++k) {
+                const double *step = d.motion + 16 * k;
+                check_affine(step, what + ": motion, step " + std::to_string(k));
+                out.motion.push_back(place_instances(d, affine_from_rows(step), what));
+            }
+            out.instances = out.motion[0];
+        }
         if (d.object_indices)
             out.object_indices.assign(d.object_indices, d.object_indices + out.instances.size());
         if (out.object_indices.size() < 2)

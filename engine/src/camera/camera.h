@@ -24,8 +24,8 @@ class Camera {
     Camera(const OrthographicCamera &camera) : kind_(camera) {}
 
     /// The ray through a point of the film (x right, y down, both 0 to 1) and a point of the lens (unit disk).
-    CameraRay generate(Vec2f film, Vec2f lens) const {
-        return visit([&](const auto &c) { return c.generate(film, lens); });
+    CameraRay generate(Vec2f film, Vec2f lens, ShutterTime time) const {
+        return visit([&](const auto &c) { return c.generate(film, lens, time); });
     }
 
     /// The inverse: where a point is seen from a point of the lens (unit disk); nothing behind the clipping planes.

@@ -18,11 +18,12 @@ float filter_offset(const FilmSettings &film, float u) {
 
 } // namespace
 
-CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens) {
+CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens,
+                            ShutterTime time) {
     const FilmSettings &film = scene.film;
     const Vec2f at{(float(pixel_x) + 0.5f + filter_offset(film, u_pixel.x)) / float(film.width),
                    (float(pixel_y) + 0.5f + filter_offset(film, u_pixel.y)) / float(film.height)};
-    CameraRay ray = scene.camera.generate(at, scene.camera.has_lens() ? sample_uniform_disk(u_lens) : Vec2f{});
+    CameraRay ray = scene.camera.generate(at, scene.camera.has_lens() ? sample_uniform_disk(u_lens) : Vec2f{}, time);
     ray.pixel_x = pixel_x;
     ray.pixel_y = pixel_y;
     return ray;

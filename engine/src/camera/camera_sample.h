@@ -11,7 +11,8 @@ namespace glimmer {
 
 /// pixel: of the whole picture. By filter importance sampling: every sample counts the same and none leaves its pixel's
 /// sum.
-CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens);
+CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens,
+                            ShutterTime time);
 
 /// One of `size` rows or columns of pixels from `first` on.
 inline uint32_t pick_pixel(uint32_t first, uint32_t size, float u) {

@@ -13,7 +13,7 @@
 namespace glimmer {
 
 struct OrthographicCamera : CameraBase {
-    CameraRay generate(Vec2f film, Vec2f lens) const {
+    CameraRay generate(Vec2f film, Vec2f lens, ShutterTime time) const {
         Vec3f origin = on_image_plane(image_point(film)), along = forward;
         if (has_lens()) {
             const Vec3f from = lens_point(lens);
@@ -22,7 +22,7 @@ struct OrthographicCamera : CameraBase {
         }
         const float inv_cosine = length(along);
         const Vec3f direction = along / inv_cosine;
-        return {{origin + along * clip_start, direction, (clip_end - clip_start) * inv_cosine}, 0, 0};
+        return {{origin + along * clip_start, direction, time, (clip_end - clip_start) * inv_cosine}, 0, 0};
     }
 
     std::optional<Projection> project(const Vec3f &x, Vec2f lens) const {

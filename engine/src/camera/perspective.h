@@ -13,7 +13,7 @@
 namespace glimmer {
 
 struct PerspectiveCamera : CameraBase {
-    CameraRay generate(Vec2f film, Vec2f lens) const {
+    CameraRay generate(Vec2f film, Vec2f lens, ShutterTime time) const {
         const Vec2f image = image_point(film);
         const Vec3f pinhole = forward + right * image.x + up * image.y; // 1 along the axis
         Vec3f origin, along = pinhole;
@@ -24,7 +24,7 @@ struct PerspectiveCamera : CameraBase {
         const float inv_cosine = length(along);
         const Vec3f direction = along / inv_cosine;
         origin += direction * (clip_start * inv_cosine);
-        return {{origin, direction, (clip_end - clip_start) * inv_cosine}, 0, 0};
+        return {{origin, direction, time, (clip_end - clip_start) * inv_cosine}, 0, 0};
     }
 
     std::optional<Projection> project(const Vec3f &x, Vec2f lens) const {
@@ -76,7 +76,7 @@ struct PerspectiveCamera : CameraBase {
     }
 
     bool sees_any(const std::vector<Silhouette> &silhouettes, Vec2f film) const {
-        const Vec3f direction = generate(film, {}).ray.direction;
+        const Vec3f direction = generate(film, {}, {}).ray.direction;
         return std::any_of(silhouettes.begin(), silhouettes.end(), [&](const Silhouette &s) {
             return std::atan2(length(cross(direction, s.middle)), dot(direction, s.middle)) <= s.reach;
         });

@@ -72,8 +72,20 @@ RTCRay embree_ray(const Ray &ray) {
     r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
     r.tnear = kNearestHit;
     r.tfar = ray.t_max;
+    r.time = ray.time.value;
     r.mask = ~0u;
     return r;
+}
+
+void set_transform(RTCGeometry geometry, unsigned step, const Instance &instance) {
+    float rows[12];
+    for (size_t r = 0; r < 3; ++r) {
+        rows[4 * r] = instance.linear[r].x;
+        rows[4 * r + 1] = instance.linear[r].y;
+        rows[4 * r + 2] = instance.linear[r].z;
+        rows[4 * r + 3] = instance.translation[int(r)];
+    }
+    embree().rtcSetGeometryTransform(geometry, step, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
 }
 
 } // namespace
@@ -101,12 +113,62 @@ float Instance::reach() const {
     return float(std::min(local, 0.5 * double(kMostCoordinate)));
 }
 
-Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres, uint32_t threads)
-    : instances_(std::move(instances)), spheres_(std::move(spheres)), reach_(kMostCoordinate),
-      device_(embree_device(threads)) {
+bool Instance::place(const Linear &linear_map, const Vec3d &center) {
+    for (size_t r = 0; r < 3; ++r)
+        linear[r] = Vec3f(linear_map.rows[r]);
+    translation = Vec3f(center);
+    // Normalised, so that neither tiny nor huge scales under- or overflow in float32.
+    Linear cofactor = linear_map.cofactor();
+    const double scale = std::max({max_abs(cofactor.rows[0]), max_abs(cofactor.rows[1]), max_abs(cofactor.rows[2])});
+    if (!(std::abs(linear_map.determinant()) > 0) || !std::isfinite(scale) || reach() == 0)
+        return false;
+    for (Vec3d &row : cofactor.rows)
+        row = row / scale;
+    if (linear_map.determinant() < 0) // a mirrored mesh keeps its outside
+        for (Vec3d &row : cofactor.rows)
+            row = -row;
+    for (size_t r = 0; r < 3; ++r)
+        normal_matrix[r] = Vec3f(cofactor.rows[r]);
+    return true;
+}
+
+Instance interpolate(const InstanceMotion &motion, ShutterTime time) {
+    const float at = time.value * float(motion.size() - 1);
+    const size_t first = std::min(size_t(at), motion.size() - 2);
+    const double f = double(at - float(first)), g = 1 - f;
+    const Instance &a = motion[first], &b = motion[first + 1];
+    Linear linear;
+    for (size_t r = 0; r < 3; ++r)
+        linear.rows[r] = Vec3d(a.linear[r]) * g + Vec3d(b.linear[r]) * f;
+    Instance between = a;
+    between.place(linear, Vec3d(a.translation) * g + Vec3d(b.translation) * f);
+    return between;
+}
+
+bool is_solid(const InstanceMotion &motion) {
+    constexpr size_t kLooks = 16; // between two steps
+    const auto volume = [](const Instance &i) {
+        return Linear{{Vec3d(i.linear[0]), Vec3d(i.linear[1]), Vec3d(i.linear[2])}}.determinant();
+    };
+    const size_t looks = kLooks * (motion.size() - 1);
+    for (size_t k = 0; k <= looks; ++k) {
+        const Instance at = interpolate(motion, ShutterTime(float(k) / float(looks)));
+        if (at.reach() == 0 || (volume(at) < 0) != (volume(motion[0]) < 0))
+            return false;
+    }
+    return true;
+}
+
+Accel::Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motions, std::vector<Sphere> spheres,
+             uint32_t threads)
+    : instances_(std::move(instances)), motions_(std::move(motions)), spheres_(std::move(spheres)),
+      reach_(kMostCoordinate), device_(embree_device(threads)) {
     for (const Instance &instance : instances_)
         reach_ = std::min(reach_, instance.reach());
-    std::vector<Bvh> meshes; // built before the memory is counted
+    for (const InstanceMotion &motion : motions_)
+        for (const Instance &step : motion)
+            reach_ = std::min(reach_, 0.5f * step.reach()); // between two steps the inverse is larger
+    std::vector<Bvh> meshes;                                // built before the memory is counted
     for (const Instance &instance : instances_)
         meshes.push_back(instance.mesh->bvh(device_));
     const Embree &e = embree();
@@ -117,14 +179,14 @@ Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres, uint3
         const Instance &instance = instances_[i];
         RTCGeometry geometry = e.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
         e.rtcSetGeometryInstancedScene(geometry, meshes[i].get());
-        float rows[12];
-        for (size_t r = 0; r < 3; ++r) {
-            rows[4 * r] = instance.linear[r].x;
-            rows[4 * r + 1] = instance.linear[r].y;
-            rows[4 * r + 2] = instance.linear[r].z;
-            rows[4 * r + 3] = instance.translation[int(r)];
+        if (instance.motion == kNone) {
+            set_transform(geometry, 0, instance);
+        } else {
+            const InstanceMotion &motion = motions_[instance.motion];
+            e.rtcSetGeometryTimeStepCount(geometry, unsigned(motion.size()));
+            for (size_t k = 0; k < motion.size(); ++k)
+                set_transform(geometry, unsigned(k), motion[k]);
         }
-        e.rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
         e.rtcCommitGeometry(geometry);
         e.rtcAttachGeometryByID(scene_, geometry, unsigned(i));
         e.rtcReleaseGeometry(geometry);
@@ -146,7 +208,10 @@ Accel::Accel(std::vector<Instance> instances, std::vector<Sphere> spheres, uint3
 }
 
 size_t Accel::bytes() const {
-    return instances_.size() * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + bvh_bytes_;
+    size_t steps = instances_.size();
+    for (const InstanceMotion &motion : motions_)
+        steps += motion.size();
+    return steps * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + bvh_bytes_;
 }
 
 std::optional<Hit> Accel::intersect(const Ray &ray) const {

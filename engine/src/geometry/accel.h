@@ -5,6 +5,7 @@
 #include "geometry/mesh.h"
 #include "geometry/ray.h"
 #include "geometry/sphere.h"
+#include "math/affine.h"
 
 #include <cmath>
 #include <memory>
@@ -21,6 +22,7 @@ struct Instance {
     std::array<Vec3f, 3> normal_matrix; ///< rows; cofactors of the linear part, scaled: carries outward normals
     uint32_t object;                    ///< of the scene: holds the materials
     uint32_t object_index;              ///< for the AOV
+    uint32_t motion = kNone;            ///< of Accel::motions(); kNone: still
 
     Vec3f normal_to_world(const Vec3f &n) const {
         return Vec3f(dot(normal_matrix[0], n), dot(normal_matrix[1], n), dot(normal_matrix[2], n));
@@ -31,13 +33,25 @@ struct Instance {
     /// How far from the scene's origin a ray may start for Embree to carry it into the mesh's own space; 0 when it
     /// cannot be carried there at all, so flat or so tiny is the instance, or so far away.
     float reach() const;
+    /// Where it stands: matrices by the affine map of the mesh's own coordinates about its centre. False where it would
+    /// be so flat that reach() is 0.
+    bool place(const Linear &linear_map, const Vec3d &center);
 };
+
+/// An instance that moves: where it stands at moments evenly spaced from when the shutter opens to when it closes.
+/// Between them its matrix is interpolated, as Embree does.
+using InstanceMotion = std::vector<Instance>;
+
+Instance interpolate(const InstanceMotion &motion, ShutterTime time);
+/// Whether it has a volume all the way: linear interpolation of a turn of half a circle has none in its middle.
+bool is_solid(const InstanceMotion &motion);
 
 class Accel {
   public:
     /// Builds at once, on `threads` threads at most (0: all). Spheres are about the scene's origin. Meshes must outlive
     /// this.
-    Accel(std::vector<Instance> instances, std::vector<Sphere> spheres, uint32_t threads);
+    Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motions, std::vector<Sphere> spheres,
+          uint32_t threads);
     Accel(const Accel &) = delete;
     Accel &operator=(const Accel &) = delete;
 
@@ -58,8 +72,14 @@ class Accel {
     bool without_bvh() const { return instances_.empty() && spheres_.size() <= kFewSpheres; }
     /// Of all but the meshes.
     size_t bytes() const;
+    /// Those that move stand where they do when the shutter opens.
     const std::vector<Instance> &instances() const { return instances_; }
+    const std::vector<InstanceMotion> &motions() const { return motions_; }
     const std::vector<Sphere> &spheres() const { return spheres_; }
+    Instance instance_at(uint32_t index, ShutterTime time) const {
+        const Instance &opening = instances_[index];
+        return opening.motion == kNone ? opening : interpolate(motions_[opening.motion], time);
+    }
 
   private:
     bool can_trace(const Ray &ray) const { // written so that NaN fails
@@ -88,6 +108,7 @@ class Accel {
     static constexpr size_t kFewSpheres = 8;
 
     std::vector<Instance> instances_;
+    std::vector<InstanceMotion> motions_;
     std::vector<Sphere> spheres_;
     float reach_;
     std::shared_ptr<const EmbreeDevice> device_;

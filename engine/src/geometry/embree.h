@@ -31,6 +31,7 @@ namespace glimmer {
     X(rtcSetSharedGeometryBuffer)                                                                                      \
     X(rtcSetGeometryInstancedScene)                                                                                    \
     X(rtcSetGeometryTransform)                                                                                         \
+    X(rtcSetGeometryTimeStepCount)                                                                                     \
     X(rtcSetGeometryUserPrimitiveCount)                                                                                \
     X(rtcSetGeometryUserData)                                                                                          \
     X(rtcSetGeometryBoundsFunction)                                                                                    \

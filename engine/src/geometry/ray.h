@@ -9,10 +9,23 @@ namespace glimmer {
 
 inline constexpr uint32_t kNone = 0xffffffffu;
 
-/// A half-line about the scene's origin (the camera), direction of unit length.
+/// A moment while the shutter is open, 0 to 1. A type of its own, so that no length is taken for one.
+struct ShutterTime {
+    float value = 0;
+    constexpr ShutterTime() = default;
+    explicit constexpr ShutterTime(float moment) : value(moment) {}
+};
+
+/// A half-line about the scene's origin (the camera), direction of unit length. Light takes no time: all rays of a
+/// sample have the same.
 struct Ray {
     Vec3f origin, direction;
     float t_max = kInfinity;
+    ShutterTime time;
+
+    Ray() = default;
+    Ray(const Vec3f &o, const Vec3f &d, ShutterTime t, float most = kInfinity)
+        : origin(o), direction(d), t_max(most), time(t) {}
 };
 
 /// A part of a ray, by distances from its origin.

@@ -12,7 +12,7 @@ constexpr int kMostSurfaces = 100000; // surfaces along the ray; ends the search
 
 } // namespace
 
-InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x) {
+InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime time) {
     InteriorStack stack;
     if (!scene.has_dielectrics)
         return stack;
@@ -23,7 +23,7 @@ InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x) {
     std::vector<Crossing> crossings;
     std::vector<uint32_t> entered;
     // An arbitrary direction, so that the ray does not run along walls or through edges of axis-aligned models.
-    Ray ray{x, normalize(Vec3f(0.2672f, 0.5345f, 0.8018f))};
+    Ray ray{x, normalize(Vec3f(0.2672f, 0.5345f, 0.8018f)), time};
     for (int i = 0; i < kMostSurfaces; ++i) {
         const auto hit = scene.accel->intersect(ray);
         if (!hit)

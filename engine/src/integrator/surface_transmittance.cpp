@@ -13,7 +13,7 @@ Rgb surface_transmittance(const Scene &scene, Ray ray, uint32_t ignored_sphere, 
             break;
         Interaction surface = scene.interaction(ray, *hit);
         arena.clear();
-        const Shading shading = scene.materials.shade(surface, {-ray.direction}, arena);
+        const Shading shading = scene.materials.shade(surface, {-ray.direction, 0, ray.time}, arena);
         if (is_black(shading.transparency))
             return {};
         left *= shading.transparency;

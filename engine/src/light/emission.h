@@ -13,7 +13,7 @@ inline Emission emit_from_surface(const Vec3f &position, const Vec3f &normal, fl
                                   double area, Vec2f u) {
     const Vec3f local = sample_cosine_hemisphere(u);
     const Vec3f direction = normalize(Frame(normal).to_world(local));
-    return {{position + normal * error, direction}, radiance * float(kPiDouble * area)};
+    return {{position + normal * error, direction, {}}, radiance * float(kPiDouble * area)};
 }
 
 } // namespace glimmer

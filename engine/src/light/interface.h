@@ -54,7 +54,8 @@ struct LampHit {
 };
 
 /// A ray that carries `power` away from a light, in the sense that the mean over samples of power, spread along the
-/// rays, is the light's own. t_max: how far it is that light's (the inside of a see-through sphere).
+/// rays, is the light's own. The time is the caller's. t_max: how far it is that light's (the inside of a see-through
+/// sphere).
 struct Emission {
     Ray ray;
     Rgb power;

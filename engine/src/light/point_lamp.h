@@ -30,11 +30,12 @@ inline std::optional<LightSample> sample(const PointLamp &light, const Vec3f &x,
 
 inline Emission emit(const PointLamp &light, bool, Vec2f, Vec2f u_direction, float) {
     if (!light.cone)
-        return {{light.position, sample_uniform_sphere(u_direction)}, light.intensity * (4 * kPi)};
+        return {{light.position, sample_uniform_sphere(u_direction), {}}, light.intensity * (4 * kPi)};
     const float one_minus_cos = 1 - light.cone->cos_half;
     const Vec3f direction =
         normalize(Frame(light.cone->direction).to_world(sample_uniform_cone(one_minus_cos, u_direction)));
-    return {{light.position, direction}, light.intensity * (light.cone->falloff(direction) * 2 * kPi * one_minus_cos)};
+    return {{light.position, direction, {}},
+            light.intensity * (light.cone->falloff(direction) * 2 * kPi * one_minus_cos)};
 }
 
 inline LightBound bound(const PointLamp &light) {

@@ -2,6 +2,7 @@
 #include "render/tile_renderer.h"
 
 #include "camera/camera_sample.h"
+#include "integrator/shutter.h"
 #include "render/clock.h"
 #include "sampling/dimensions.h"
 
@@ -63,8 +64,12 @@ bool TileRenderer::render_pixel(Work &work, uint32_t x, uint32_t y, const Rectan
         if (const WaveData *data = schedule_.shared(wave); data && !shared)
             shared = integrator_.prepare_block(*data, block, work.trace);
         Sampler sampler(seed_, x, y, uint32_t(wave % kReplicates), uint32_t(i));
+        ShutterTime time;
+        if (scene_.moves)
+            time = integrator_.shares() ? time_of_wave(seed_, wave)
+                                        : ShutterTime(sampler.stratified_1d(dimension(Dimension::time)));
         const CameraRay camera = sample_camera_ray(scene_, x, y, sampler.stratified_2d(dimension(Dimension::film)),
-                                                   sampler.stratified_2d(dimension(Dimension::lens)));
+                                                   sampler.stratified_2d(dimension(Dimension::lens)), time);
         const FilmSample value = integrator_.sample(camera, sampler, shared.get(), work.trace);
         if (value.unfinished && stop_.load(std::memory_order_relaxed))
             return false;

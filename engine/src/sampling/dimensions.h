@@ -15,6 +15,7 @@ namespace glimmer {
 enum class Dimension : uint32_t {
     film,               ///< the place in the pixel's filter
     lens,               ///< the point of the lens
+    time,               ///< the moment while the shutter is open
     medium_distance,    ///< how far along the camera's segment the path scatters in the medium
     medium_direction,   ///< the phase function's sample there
     segment_distance,   ///< of each light, the point of the camera's segment that it is sampled from
@@ -36,9 +37,10 @@ struct DimensionRange {
 };
 
 /// In the order of the enumeration. The numbers are keys of scrambles: others give another picture of the same mean.
-inline constexpr std::array<DimensionRange, 12> kDimensions{{
+inline constexpr std::array<DimensionRange, 13> kDimensions{{
     {"film", 0, 1},
     {"lens", 1, 1},
+    {"time", 4, 1},
     {"medium distance", 2, 1},
     {"medium direction", 3, 1},
     {"segment distance", 16, 16, 2},

@@ -4,6 +4,7 @@
 #include "math/rounding.h"
 #include "scene/builder.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace glimmer {
@@ -65,45 +66,56 @@ void SceneBuilder::use(uint32_t index) {
     scene_.max_value = std::max(scene_.max_value, material.bounds.max_value);
 }
 
+bool SceneBuilder::material_may_shine(uint32_t material) const {
+    const MaterialDescription &m = description_.materials[material];
+    if ((m.type == MaterialType::mix || m.type == MaterialType::add) &&
+        (material_may_shine(m.a) || material_may_shine(m.b)))
+        return true;
+    return may_shine(m, m.bindings);
+}
+
 void SceneBuilder::build_geometry() {
     std::vector<Instance> instances;
-    size_t flat = 0;
+    std::vector<InstanceMotion> motions;
+    size_t flat = 0, folding = 0, shining = 0;
     for (const ObjectDescription &object : description_.objects) {
         std::shared_ptr<const Mesh> mesh = without_absent(object);
         if (!mesh) {
             ++absent_objects_;
             continue;
         }
-        for (uint32_t material : object.materials) {
+        for (uint32_t material : object.materials)
             use(material);
-        }
+        const bool shines = std::ranges::any_of(object.materials, [&](uint32_t m) { return material_may_shine(m); });
         const auto index = uint32_t(scene_.object_materials.size());
         scene_.object_materials.push_back(object.materials);
         for (size_t i = 0; i < object.instances.size(); ++i) {
             const Affine &a = object.instances[i];
             Instance instance;
             instance.mesh = mesh.get();
-            for (size_t r = 0; r < 3; ++r)
-                instance.linear[r] = Vec3f(a.linear.rows[r]);
-            instance.translation = Vec3f(a * mesh->center - origin_);
-            // Normalised, so that neither tiny nor huge scales under- or overflow in float32.
-            Linear cofactor = a.linear.cofactor();
-            const double scale =
-                std::max({max_abs(cofactor.rows[0]), max_abs(cofactor.rows[1]), max_abs(cofactor.rows[2])});
-            if (!(std::abs(a.linear.determinant()) > 0) || !std::isfinite(scale) || instance.reach() == 0) {
+            if (!instance.place(a.linear, a * mesh->center - origin_)) {
                 ++flat; // no volume to enter and no inverse for the ray: as good as not there
                 continue;
             }
-            for (Vec3d &row : cofactor.rows)
-                row = row / scale;
-            if (a.linear.determinant() < 0) // a mirrored mesh keeps its outside
-                for (Vec3d &row : cofactor.rows)
-                    row = -row;
-            for (size_t r = 0; r < 3; ++r)
-                instance.normal_matrix[r] = Vec3f(cofactor.rows[r]);
             instance.object = index;
             instance.object_index =
                 object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
+            if (object.moves()) {
+                InstanceMotion motion;
+                bool placed = true;
+                for (const std::vector<Affine> &step : object.motion) {
+                    motion.push_back(instance);
+                    placed &= motion.back().place(step[i].linear, step[i] * mesh->center - origin_);
+                }
+                if (placed && is_solid(motion) && !shines) {
+                    instance.motion = uint32_t(motions.size());
+                    motions.push_back(std::move(motion));
+                } else {
+                    ++(shines ? shining : folding);
+                    if (placed)
+                        instance = motion[motion.size() / 2];
+                }
+            }
             instances.push_back(instance);
             object_places_.push_back({size_t(&object - description_.objects.data()), i});
         }
@@ -111,6 +123,14 @@ void SceneBuilder::build_geometry() {
     }
     if (flat)
         scene_.warnings.push_back(std::to_string(flat) + " instance(s) of zero scale, or nearly, were left out");
+
+    if (folding)
+        scene_.warnings.push_back(std::to_string(folding) + " instance(s) turn too far between two steps of their "
+                                                            "motion and are held still; give more steps");
+    if (shining)
+        scene_.warnings.push_back(std::to_string(shining) + " instance(s) shine, so they are held still where they are "
+                                                            "in the middle of their motion");
+    scene_.moves = !motions.empty();
 
     std::vector<Sphere> spheres;
     for (const SpheresDescription &group : description_.spheres) {
@@ -126,7 +146,7 @@ void SceneBuilder::build_geometry() {
             scene_.sphere_indices.push_back(group.object_index);
         }
     }
-    scene_.accel = std::make_unique<Accel>(std::move(instances), std::move(spheres), threads_);
+    scene_.accel = std::make_unique<Accel>(std::move(instances), std::move(motions), std::move(spheres), threads_);
 }
 
 Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
@@ -143,7 +163,11 @@ Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
         at.primitive = hit.primitive;
         return at;
     }
-    const Instance &instance = accel->instances()[hit.instance];
+    const Instance &opening = accel->instances()[hit.instance];
+    std::optional<Instance> moved;
+    if (opening.motion != kNone)
+        moved = interpolate(accel->motions()[opening.motion], ray.time);
+    const Instance &instance = moved ? *moved : opening;
     const Mesh &mesh = *instance.mesh;
     const auto &triangle = mesh.triangles[hit.primitive];
     const Vec3f &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
@@ -168,6 +192,8 @@ Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
     const float stretch =
         std::max(max_abs(instance.linear[0]), std::max(max_abs(instance.linear[1]), max_abs(instance.linear[2])));
     at.error = kHitRounding * (max_abs(at.position) + stretch * local + max_abs(instance.translation));
+    if (moved) // Embree interpolated the matrix in float32
+        at.error *= 2;
     at.material = object_materials[instance.object][mesh.slot(hit.primitive)];
     at.object_index = instance.object_index;
     at.body = at.instance = hit.instance;

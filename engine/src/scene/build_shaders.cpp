@@ -35,26 +35,6 @@ std::vector<AttributeView> views_of(const Mesh &mesh, const Names &names) {
     return views;
 }
 
-ObjectFrame frame_of(const Instance &instance, const Vec3d &origin) {
-    ObjectFrame frame;
-    Linear linear;
-    for (size_t r = 0; r < 3; ++r) {
-        frame.to_world[r] = instance.linear[r];
-        linear.rows[r] = Vec3d(instance.linear[r]);
-    }
-    const Linear cofactor = linear.cofactor();
-    const double determinant = linear.determinant();
-    const std::array<Vec3d, 3> &c = cofactor.rows; // the inverse is their transpose over the determinant
-    frame.to_object = {Vec3f(Vec3d(c[0].x, c[1].x, c[2].x) / determinant),
-                       Vec3f(Vec3d(c[0].y, c[1].y, c[2].y) / determinant),
-                       Vec3f(Vec3d(c[0].z, c[1].z, c[2].z) / determinant)};
-    const Vec3d &m = instance.mesh->center;
-    frame.location = Vec3f(Vec3d(instance.translation) + origin -
-                           Vec3d(dot(linear.rows[0], m), dot(linear.rows[1], m), dot(linear.rows[2], m)));
-    frame.index = float(instance.object_index);
-    return frame;
-}
-
 } // namespace
 
 /// For all values in range: an albedo of 1, and of what is rough the tip of the sharpest lobe.

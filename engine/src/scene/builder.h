@@ -31,6 +31,7 @@ class SceneBuilder {
     /// interior: the index of the body that the material bounds, 0 for none.
     MaterialBounds bounds_of_varying(uint32_t material, float &interior) const;
     void use(uint32_t material);
+    bool material_may_shine(uint32_t material) const; ///< or a part of it
     std::shared_ptr<const Mesh> without_absent(const ObjectDescription &object) const;
     void add_sphere_lights(std::vector<Light> &lights) const;
     void add_mesh_light(std::vector<Light> &lights) const;

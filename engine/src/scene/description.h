@@ -30,6 +30,9 @@ struct ObjectDescription {
     Rgb color{1};
     float opacity = 1;
     std::vector<float> randoms; ///< one an instance, or one for all
+    /// The instances at moments evenly spaced from when the shutter opens to when it closes; none: they are still.
+    std::vector<std::vector<Affine>> motion;
+    bool moves() const { return !motion.empty(); }
 };
 
 struct SpheresDescription {

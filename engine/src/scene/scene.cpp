@@ -31,10 +31,15 @@ void SceneBuilder::build_bounds() {
         high = {std::max(high.x, center.x + radius), std::max(high.y, center.y + radius),
                 std::max(high.z, center.z + radius)};
     };
-    for (const Instance &i : scene_.accel->instances()) {
+    const auto add_instance = [&](const Instance &i) {
         const double stretch = double(std::max({length(i.linear[0]), length(i.linear[1]), length(i.linear[2])}));
         add(Vec3d(i.translation), 3 * stretch * double(i.mesh->radius));
-    }
+    };
+    for (const Instance &i : scene_.accel->instances())
+        add_instance(i);
+    for (const InstanceMotion &motion : scene_.accel->motions())
+        for (const Instance &step : motion)
+            add_instance(step);
     for (const Sphere &s : scene_.accel->spheres())
         add(s.center, s.radius);
     for (uint32_t i = 0; i < scene_.lights.size(); ++i)

@@ -42,6 +42,7 @@ class Scene {
     const Medium *outside() const { return medium ? &*medium : nullptr; }
     std::unique_ptr<Accel> accel;
     LightSet lights;
+    bool moves = false;            ///< anything, while the shutter is open
     bool has_surfaces = false;     ///< anything that scatters light
     bool has_dielectrics = false;  ///< bodies of glass
     bool has_transmission = false; ///< surfaces that scatter light to their other side; glass among them

@@ -32,8 +32,7 @@ void collect(const ShaderScene &scene, uint32_t index, VaryingMaterial &out) {
     for (const ParameterBinding &b : bindings)
         if (std::ranges::find(out.programs, b.program) == out.programs.end())
             out.programs.push_back(b.program);
-    out.shines |=
-        !is_black(m.emission) || !is_black(m.radiance) || gives(bindings, "emission") || gives(bindings, "radiance");
+    out.shines |= may_shine(m, bindings);
     if (m.type == MaterialType::mix || m.type == MaterialType::add) {
         collect(scene, m.a, out);
         collect(scene, m.b, out);
@@ -59,6 +58,30 @@ Vec3f above(const Vec3f &normal, const Vec3f &geometric) {
 }
 
 } // namespace
+
+bool may_shine(const MaterialDescription &node, std::span<const ParameterBinding> bindings) {
+    return !is_black(node.emission) || !is_black(node.radiance) || gives(bindings, "emission") ||
+           gives(bindings, "radiance");
+}
+
+ObjectFrame frame_of(const Instance &instance, const Vec3d &origin, ObjectFrame frame) {
+    Linear linear;
+    for (size_t r = 0; r < 3; ++r) {
+        frame.to_world[r] = instance.linear[r];
+        linear.rows[r] = Vec3d(instance.linear[r]);
+    }
+    const Linear cofactor = linear.cofactor();
+    const double determinant = linear.determinant();
+    const std::array<Vec3d, 3> &c = cofactor.rows; // the inverse is their transpose over the determinant
+    frame.to_object = {Vec3f(Vec3d(c[0].x, c[1].x, c[2].x) / determinant),
+                       Vec3f(Vec3d(c[0].y, c[1].y, c[2].y) / determinant),
+                       Vec3f(Vec3d(c[0].z, c[1].z, c[2].z) / determinant)};
+    const Vec3d &m = instance.mesh->center;
+    frame.location = Vec3f(Vec3d(instance.translation) + origin -
+                           Vec3d(dot(linear.rows[0], m), dot(linear.rows[1], m), dot(linear.rows[2], m)));
+    frame.index = float(instance.object_index);
+    return frame;
+}
 
 void ShaderScene::add(uint32_t material) {
     VaryingMaterial out;
@@ -108,23 +131,26 @@ void ShaderScene::set_place(Place &place, const Interaction &surface, const View
     if (point.is_sphere()) {
         const Sphere &sphere = point.sphere();
         const auto radius = float(sphere.radius);
-        place.sphere.to_world = {Vec3f{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}};
-        place.sphere.to_object = {Vec3f{1 / radius, 0, 0}, {0, 1 / radius, 0}, {0, 0, 1 / radius}};
-        place.sphere.location = Vec3f(sphere.center + origin);
-        place.sphere.index = float(surface.object_index);
-        g.object = &place.sphere;
+        place.own.to_world = {Vec3f{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}};
+        place.own.to_object = {Vec3f{1 / radius, 0, 0}, {0, 1 / radius, 0}, {0, 0, 1 / radius}};
+        place.own.location = Vec3f(sphere.center + origin);
+        place.own.index = float(surface.object_index);
+        g.object = &place.own;
         g.object_position = Vec3f(point.object_position());
         return;
     }
-    const Instance &instance = point.instance();
     const Mesh &mesh = point.mesh();
     g.object_position = Vec3f(point.object_position());
     g.object = &frames[surface.instance];
+    if (point.is_moving()) {
+        place.own = frame_of(point.instance(), origin, frames[surface.instance]);
+        g.object = &place.own;
+    }
     g.triangle = surface.primitive;
     g.vertices = &mesh.triangles[surface.primitive];
     g.vertex_normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
-    if (instance.object < attributes.size())
-        g.attributes = attributes[instance.object];
+    if (const uint32_t object = geometry->instances()[surface.instance].object; object < attributes.size())
+        g.attributes = attributes[object];
     const Vec3f &a = mesh.vertices[(*g.vertices)[0]];
     const Vec3f e1 = mesh.vertices[(*g.vertices)[1]] - a, e2 = mesh.vertices[(*g.vertices)[2]] - a;
     const Vec3f n = cross(e1, e2);

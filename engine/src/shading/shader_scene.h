@@ -25,6 +25,12 @@ struct VaryingMaterial {
     bool shines = false; ///< somewhere, for all that is known
 };
 
+/// Whether a node of a material shines by itself, for all that is known of its programs.
+bool may_shine(const MaterialDescription &node, std::span<const ParameterBinding> bindings);
+
+/// `rest`: what has no place.
+ObjectFrame frame_of(const Instance &instance, const Vec3d &origin, ObjectFrame rest = {});
+
 class ShaderScene : public VaryingEmission {
   public:
     std::vector<MaterialDescription> nodes;              ///< without their bindings
@@ -61,7 +67,7 @@ class ShaderScene : public VaryingEmission {
   private:
     struct Place {
         ShaderGlobals globals;
-        ObjectFrame sphere;
+        ObjectFrame own; ///< of what is no instance that keeps still
     };
     float pixel_at(const Vec3f &from_camera) const;
     void set_place(Place &place, const Interaction &surface, const View &view) const;

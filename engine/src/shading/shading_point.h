@@ -33,9 +33,9 @@ struct Interaction {
 
 /// From where, and how finely, a surface is looked at.
 struct View {
-    Vec3f wo;            ///< unit, away from the surface: where its light goes
-    float footprint = 0; ///< lengths: the width of what one sample stands for; 0: a point
-    float time = 0;      ///< of the shutter, 0 to 1
+    Vec3f wo;              ///< unit, away from the surface: where its light goes
+    float footprint = 0;   ///< lengths: the width of what one sample stands for; 0: a point
+    ShutterTime time = {}; ///< the moment: where a moving object stands
 };
 
 /// What the node of a shader program may ask. Positions are in the scene's coordinates, about its origin near the
@@ -49,10 +49,11 @@ class ShadingPoint {
     const View &view;
     const Vec3d &origin;
 
+    bool is_moving() const { return !is_sphere() && geometry_.instances()[surface.instance].motion != kNone; }
     bool is_sphere() const { return surface.instance == kNone; }
     /// Asked only where is_sphere() is false.
-    const Instance &instance() const { return geometry_.instances()[surface.instance]; }
-    const Mesh &mesh() const { return *instance().mesh; }
+    Instance instance() const { return geometry_.instance_at(surface.instance, view.time); }
+    const Mesh &mesh() const { return *geometry_.instances()[surface.instance].mesh; }
     /// Asked only where is_sphere() is true.
     const Sphere &sphere() const { return geometry_.spheres()[surface.primitive]; }
 

@@ -74,6 +74,13 @@ BAD = [
     Bad(("camera", "lens_radius"), -1, "camera.lens_radius: -1 is not a number of 0 or more"),
     Bad(("camera", "clip"), [2, 1], "camera.clip: [2,1] is not [start, end] with start < end"),
     Bad(("camera", "shift"), 1, "camera.shift: 1 is not a list of 2"),
+    Bad(
+        ("objects", 0, "motion"),
+        [scenes.IDENTITY],
+        "objects[0]: needs either to_world or motion, which takes its place",
+    ),
+    Bad(("objects", 3, "motion"), [scenes.IDENTITY], "objects[3].motion: has fewer than 2 matrices"),
+    Bad(("objects", 3, "motion"), [scenes.IDENTITY, 5], "objects[3].motion[1]: 5 is not a"),
     Bad(("camera", "type"), "round", 'camera.type: "round" is not a camera type; camera types are "perspective",'),
     Bad(("camera", "type"), "orthographic", 'camera: unknown key "fov_x"; allowed here are type,'),
     Bad(("camera", "width"), 3, 'camera: unknown key "width"; allowed here are type,'),

@@ -31,7 +31,8 @@ uint32_t EmitterRays::rays(uint32_t pixel_x, uint32_t pixel_y) const {
     return scene_.camera.sees_any(discs_, middle) ? rays_ : 0;
 }
 
-Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &trace) const {
+Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterTime time, Sampler &sampler,
+                     TraceContext &trace) const {
     const auto side = uint32_t(std::lround(std::sqrt(float(rays))));
     const auto strata = float(side);
     Rgb sum;
@@ -39,14 +40,14 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler 
     for (uint32_t i = 0; i < side * side; ++i) {
         const Vec2f u = sampler.next_2d();
         const Vec2f u_pixel{(float(i % side) + u.x) / strata, (float(i / side) + u.y) / strata};
-        const Ray ray = sample_camera_ray(scene_, pixel_x, pixel_y, u_pixel, sampler.next_2d()).ray;
+        const Ray ray = sample_camera_ray(scene_, pixel_x, pixel_y, u_pixel, sampler.next_2d(), time).ray;
         ++trace.rays;
         const auto hit = scene_.accel->intersect(ray);
         if (!hit || hit->instance != kNone)
             continue;
         Interaction surface = scene_.interaction(ray, *hit);
         arena.clear();
-        const Rgb emission = scene_.materials.shade(surface, {-ray.direction}, arena).emission;
+        const Rgb emission = scene_.materials.shade(surface, {-ray.direction, 0, ray.time}, arena).emission;
         sum += emission * transmittance(scene_.outside(), ray, hit->t);
     }
     return sum;

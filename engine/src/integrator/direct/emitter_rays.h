@@ -21,7 +21,8 @@ class EmitterRays {
     uint32_t rays(uint32_t pixel_x, uint32_t pixel_y) const;
 
     /// The sum over so many camera rays, stratified over the pixel's filter, of the emission of the spheres they meet.
-    Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, Sampler &sampler, TraceContext &trace) const;
+    Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterTime time, Sampler &sampler,
+            TraceContext &trace) const;
 
   private:
     const Scene &scene_;

@@ -41,12 +41,13 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
         if (!light)
             continue;
         const float p_phase = phase.eval(direction, light->direction);
-        const Rgb unshadowed = medium.scattering(x) *
-                               medium.transmittance(state.ray, at.t, {x, light->direction}, light->distance) *
-                               light->radiance * (p_phase / light->pdf / at.pdf / choice.probability);
+        const Rgb unshadowed =
+            medium.scattering(x) *
+            medium.transmittance(state.ray, at.t, {x, light->direction, state.ray.time}, light->distance) *
+            light->radiance * (p_phase / light->pdf / at.pdf / choice.probability);
         if (is_black(unshadowed))
             continue;
-        const Rgb arriving = unshadowed * visibility(x, *light);
+        const Rgb arriving = unshadowed * visibility(x, *light, state.ray.time);
         if (is_black(arriving))
             continue;
         float weight = 1;
@@ -105,7 +106,7 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
     const PhaseSample s = medium.phase().sample(state.ray.direction,
                                                 camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction))
                                                        : sampler_.next_2d());
-    next.ray = {x, s.direction};
+    next.ray = {x, s.direction, state.ray.time};
     next.previous = {ScatterKind::medium,
                      state.seen_directly(),
                      along,
@@ -131,11 +132,11 @@ void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, c
     if (!light)
         return;
     const float p_phase = medium.phase().eval(state.ray.direction, light->direction);
-    const Rgb unshadowed = medium.transmittance({x, light->direction}, light->distance) * light->radiance *
-                           (p_phase / light->pdf / choice.probability);
+    const Rgb unshadowed = medium.transmittance({x, light->direction, state.ray.time}, light->distance) *
+                           light->radiance * (p_phase / light->pdf / choice.probability);
     if (is_black(unshadowed))
         return;
-    const Rgb arriving = unshadowed * visibility(x, *light);
+    const Rgb arriving = unshadowed * visibility(x, *light, state.ray.time);
     if (is_black(arriving))
         return;
     const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);

@@ -5,6 +5,7 @@
 #include "integrator/direct/emitter_rays.h"
 #include "integrator/direct/tuning.h"
 #include "integrator/path/kernels.h"
+#include "integrator/shutter.h"
 
 namespace glimmer {
 
@@ -14,7 +15,7 @@ class PathIntegrator final : public Integrator {
   public:
     PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &flags, bool full_kernel)
         : scene_(scene), limits_(limits), flags_(flags),
-          around_camera_(dielectrics_at(scene, scene.camera.start_region().center)),
+          around_camera_(dielectrics_at(scene, scene.camera.start_region().center, kMidShutter)),
           emitter_rays_(scene,
                         around_camera_.empty() && !rays_start_apart() ? tuning::kEmitterRays * flags.emitter_rays : 0) {
         if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
@@ -43,11 +44,13 @@ class PathIntegrator final : public Integrator {
                                   light_vertices, camera.pixel_x, camera.pixel_y, primary_weight};
         FilmSample result =
             rays_start_apart()
-                ? kernel_->sample(context, camera.ray, dielectrics_at(scene_, camera.ray.origin), sampler, trace)
+                ? kernel_->sample(context, camera.ray, dielectrics_at(scene_, camera.ray.origin, camera.ray.time),
+                                  sampler, trace)
                 : kernel_->sample(context, camera.ray, around_camera_, sampler, trace);
         if (extra_rays)
             result.emission +=
-                emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, sampler, trace) * primary_weight;
+                emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, camera.ray.time, sampler, trace) *
+                primary_weight;
         if (light_vertices) {
             result.medium += light_vertices->splatted(camera.pixel_x, camera.pixel_y);
             result.unfinished |= light_vertices->unfinished;
@@ -72,7 +75,9 @@ class PathIntegrator final : public Integrator {
 
   private:
     /// Whether camera rays start at different places, between which there may be the wall of a dielectric.
-    bool rays_start_apart() const { return scene_.has_dielectrics && scene_.camera.start_region().radius > 0; }
+    bool rays_start_apart() const {
+        return scene_.has_dielectrics && (scene_.camera.start_region().radius > 0 || scene_.moves);
+    }
 
     const Scene &scene_;
     DepthLimits limits_;

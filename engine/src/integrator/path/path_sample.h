@@ -53,7 +53,7 @@ class PathSample {
         push(camera);
         if constexpr (F.surfaces)
             if (context_.plan.pixel_ris)
-                pixel_ris();
+                pixel_ris(camera.ray.time);
         WalkGuard guard(trace_);
         while (!stack_.empty() && guard.goes_on()) {
             State next = stack_.back();
@@ -201,7 +201,7 @@ class PathSample {
     // Surfaces
 
     /// Adds the light straight from lights on what the camera sees first, at one of several points of the pixel.
-    void pixel_ris();
+    void pixel_ris(ShutterTime time);
     void light_surface(const State &state, const Interaction &surface, const Shading &shading);
     /// A surface as it is seen along a ray. All materials but dielectrics are two-sided: both normals are turned to the
     /// side that the ray comes from.
@@ -229,7 +229,7 @@ class PathSample {
     bool passes_through(State &state, const Interaction &surface, const Shading &shading, float distance, bool certain);
     /// The closures and the emission of a surface along a ray; they last until the next segment is followed.
     Shading shade(Interaction &surface, const Ray &ray) {
-        return scene().materials.shade(surface, {-ray.direction}, arena_);
+        return scene().materials.shade(surface, {-ray.direction, 0, ray.time}, arena_);
     }
     void note_first_surface(const Interaction &surface);
     /// The part of a BSDF (bounded_fraction.h) that is still to be scattered: its bounded fraction where splats bring
@@ -264,7 +264,7 @@ class PathSample {
     /// What arrives at a point of a light sample (visibility.h). origin_offset: how far the origin was moved off its
     /// surface at most. An emissive triangle must not shadow itself: the ray ends short of it by the errors of both
     /// ends, as they are seen along its plane.
-    Rgb visibility(const Vec3f &origin, const LightSample &light, float origin_offset = 0);
+    Rgb visibility(const Vec3f &origin, const LightSample &light, ShutterTime time, float origin_offset = 0);
     /// Russian roulette, see roulette.h. The probability is capped at 1: a cap below that would let the weights of
     /// paths between surfaces of high albedo grow without bound.
     bool survives(State &state, const Vec3f &x, float roulette_scale);

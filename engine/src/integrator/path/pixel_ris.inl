@@ -16,7 +16,7 @@
 namespace glimmer {
 
 template <KernelFeatures F>
-void PathSample<F>::pixel_ris() {
+void PathSample<F>::pixel_ris(ShutterTime time) {
     struct Candidate {
         Ray ray;
         Interaction surface;
@@ -32,7 +32,8 @@ void PathSample<F>::pixel_ris() {
         const Vec2f u_pixel{(float(i % tuning::kRisStrataPerSide) + u.x) / tuning::kRisStrataPerSide,
                             (float(i / tuning::kRisStrataPerSide) + u.y) / tuning::kRisStrataPerSide};
         Candidate &candidate = candidates[count];
-        candidate.ray = sample_camera_ray(scene(), context_.pixel_x, context_.pixel_y, u_pixel, sampler_.next_2d()).ray;
+        candidate.ray =
+            sample_camera_ray(scene(), context_.pixel_x, context_.pixel_y, u_pixel, sampler_.next_2d(), time).ray;
         const auto hit = intersect(candidate.ray);
         if (!hit)
             continue;

@@ -179,11 +179,11 @@ float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, con
 }
 
 template <KernelFeatures F>
-Rgb PathSample<F>::visibility(const Vec3f &origin, const LightSample &light, float origin_offset) {
+Rgb PathSample<F>::visibility(const Vec3f &origin, const LightSample &light, ShutterTime time, float origin_offset) {
     const float short_of_light =
         light.distance * (1 - kHitRounding / light.facing) - (light.error + origin_offset) / light.facing;
     const float distance = std::max(short_of_light, 0.0f);
-    const Ray ray{origin, light.direction, distance};
+    const Ray ray{origin, light.direction, time, distance};
     return glimmer::visibility<F.bvh>(scene(), ray, trace_, light.ignored_sphere);
 }
 

@@ -4,6 +4,7 @@
 #include "camera/camera_sample.h"
 #include "integrator/direct/ris_target.h"
 #include "integrator/path/tuning.h"
+#include "integrator/shutter.h"
 
 #include <cmath>
 
@@ -22,13 +23,13 @@ double pixel_contrast(const Scene &scene) {
     const FilmSettings &film = scene.film;
     ClosureArena arena;
     const auto target = [&](uint32_t x, uint32_t y) {
-        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
+        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d(), kMidShutter).ray;
         const auto hit = scene.accel->intersect(ray);
         if (!hit)
             return 0.0;
         Interaction surface = scene.interaction(ray, *hit);
         arena.clear();
-        const Shading shading = scene.materials.shade(surface, {-ray.direction}, arena);
+        const Shading shading = scene.materials.shade(surface, {-ray.direction, 0, ray.time}, arena);
         return double(ris_target(scene, surface, shading.bsdf, -ray.direction, 0));
     };
     double variance = 0, square = 0;

@@ -152,7 +152,7 @@ bool PathSample<F>::passes_through(State &state, const Interaction &surface, con
 
 template <KernelFeatures F>
 void PathSample<F>::leave_specular(State &state, const Interaction &surface, const Vec3f &wi) {
-    state.ray = {surface.origin_towards(wi), wi};
+    state.ray = {surface.origin_towards(wi), wi, state.ray.time};
     state.previous = {};
     state.passed = {};
     state.depth_since_first += state.seen_directly() ? 0 : 1;
@@ -162,7 +162,7 @@ void PathSample<F>::leave_specular(State &state, const Interaction &surface, con
 template <KernelFeatures F>
 void PathSample<F>::leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi,
                                 float pdf) {
-    state.ray = {surface.origin_towards(wi), wi};
+    state.ray = {surface.origin_towards(wi), wi, state.ray.time};
     state.previous = {};
     state.passed = {};
     state.previous.kind = ScatterKind::surface;
@@ -234,7 +234,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
             continue;
         const Rgb f_cos = eval(bsdf, wo, wi);
         Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
-        const Ray to_light{x, light->direction};
+        const Ray to_light{x, light->direction, state.ray.time};
         if (F.transmission && beyond && oriented_surface.bounds_interior)
             value *= transmittance_beyond(oriented_surface, to_light, light->distance);
         else if (medium)
@@ -257,7 +257,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (tested < 1 && !(sampler_.next_1d() < tested))
             continue;
         const Vec3f origin = surface.origin_towards(c.light.direction);
-        const Rgb arriving = c.value * visibility(origin, c.light, surface.error);
+        const Rgb arriving = c.value * visibility(origin, c.light, state.ray.time, surface.error);
         if (!is_black(arriving))
             sum += state.beta * arriving * (1 / tested);
     }

@@ -52,7 +52,7 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
     state.medium_compensation_radius = k * settings.medium_clamp_distance;
     state.surface_compensation_radius = k * settings.surface_clamp_distance;
     const Vec3f view = state.ray.direction;
-    state.ray = {x, scene().medium->phase().sample(view, sampler_.next_2d()).direction};
+    state.ray = {x, scene().medium->phase().sample(view, sampler_.next_2d()).direction, state.ray.time};
     const float u_splat = t > 0 ? sampler_.next_1d() : 1;
     if constexpr (F.surfaces) // without surfaces there are no splats
         state.splatted =

@@ -76,8 +76,8 @@ size_t pick_medium_part(const float *parts, size_t count, const ConnectionSums &
 } // namespace
 
 BlockVertices::BlockVertices(const Scene &scene, const LightVertices &vertices, const VplSettings &settings,
-                             const std::vector<Vec3f> &points, Sampler &sampler)
-    : scene_(scene), settings_(settings) {
+                             const std::vector<Vec3f> &points, ShutterTime time, Sampler &sampler)
+    : scene_(scene), settings_(settings), time_(time) {
     pick_medium(vertices.medium, points, sampler);
     pick_surface(vertices.surface, points, sampler);
     for (const VertexDepth &v : medium_.depth)
@@ -154,8 +154,8 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
 }
 
 Bsdf BlockVertices::shade(const SurfaceVertex &v) {
-    Interaction surface = scene_.interaction({v.position, -v.incoming}, {0, v.instance, v.primitive, v.u, v.v});
-    Bsdf bsdf = scene_.materials.shade(surface, {v.incoming}, closures_).bsdf;
+    Interaction surface = scene_.interaction({v.position, -v.incoming, time_}, {0, v.instance, v.primitive, v.u, v.v});
+    Bsdf bsdf = scene_.materials.shade(surface, {v.incoming, 0, time_}, closures_).bsdf;
     bsdf.eta = v.eta;
     return bsdf;
 }
@@ -230,7 +230,8 @@ void BlockVertices::connect_surface(const GatherQuery &point, const DepthLimits 
         const float d2 = length_squared(to_point), d = std::sqrt(d2);
         const Connection c = connect(v, vertices[k].bsdf, to_point / d);
         const float scale = c.bounded * phase.eval(point.seen, -to_point / d) / (d2 + d0 * d0);
-        const Rgb value = c.factor * v.power * scene_.medium->transmittance({v.position, to_point / d}, d) * scale;
+        const Rgb value =
+            c.factor * v.power * scene_.medium->transmittance({v.position, to_point / d, time_}, d) * scale;
         connections.surface_values[k] = value;
         connections.surface_parts[k] = mean_component(value);
         connections.total += value;
@@ -248,7 +249,7 @@ Rgb BlockVertices::correct_visibility(const GatherQuery &point, const Connection
             const float side = std::copysign(v.error, dot(point.x - v.position, v.geometric));
             const Vec3f from = v.position + v.geometric * side, way = point.x - from;
             const float d = length(way);
-            return correct(connections, connections.surface_values[k], part, {from, way / d, d}, rays);
+            return correct(connections, connections.surface_values[k], part, {from, way / d, time_, d}, rays);
         }
         left -= part;
     }
@@ -269,8 +270,8 @@ Rgb BlockVertices::correct_medium(const GatherQuery &point, const Connections &c
     const float phases = medium_.directed ? phase.eval(point.seen, way / d) * phase.eval(medium_.direction(j), -way / d)
                                           : kIsotropicPhase * kIsotropicPhase;
     const Rgb value =
-        medium_.power(j) * scene_.medium->transmittance({point.x, way / d}, d) * (phases / (d * d + d0 * d0));
-    return correct(connections, value, part, {point.x, way / d, d}, rays);
+        medium_.power(j) * scene_.medium->transmittance({point.x, way / d, time_}, d) * (phases / (d * d + d0 * d0));
+    return correct(connections, value, part, {point.x, way / d, time_, d}, rays);
 }
 
 Rgb BlockVertices::correct(const Connections &connections, const Rgb &value, float part, const Ray &ray,

@@ -14,9 +14,9 @@ namespace glimmer {
 /// gather points of the block, all picks by one systematic draw, dealt out to interleaved subsets.
 class BlockVertices {
   public:
-    /// points: gather points that stand for the block.
+    /// points: gather points that stand for the block. time: of the wave.
     BlockVertices(const Scene &scene, const LightVertices &vertices, const VplSettings &settings,
-                  const std::vector<Vec3f> &points, Sampler &sampler);
+                  const std::vector<Vec3f> &points, ShutterTime time, Sampler &sampler);
 
     bool empty() const { return medium_.size() == 0 && surface_.empty(); }
 
@@ -50,6 +50,7 @@ class BlockVertices {
 
     const Scene &scene_;
     VplSettings settings_;
+    ShutterTime time_;
     VertexDepth deepest_;               ///< greatest depths of the picks in the medium; 0 where depths are not kept
     MediumVertices medium_;             ///< (subsets, kMediumPicks)
     std::vector<ShadedVertex> surface_; ///< (subsets, kSurfacePicks)

@@ -6,14 +6,14 @@
 namespace glimmer {
 
 std::vector<Vec3f> sample_gather_points(const Scene &scene, const Rectangle &pixels, const InteriorStack &around_camera,
-                                        uint32_t count, Sampler &sampler, TraceContext &rays) {
+                                        uint32_t count, ShutterTime time, Sampler &sampler, TraceContext &rays) {
     std::vector<Vec3f> points;
     if (!scene.medium || !around_camera.empty())
         return points;
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t x = pick_pixel(pixels.x, pixels.width, sampler.next_1d()),
                        y = pick_pixel(pixels.y, pixels.height, sampler.next_1d());
-        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d()).ray;
+        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d(), time).ray;
         const auto hit = scene.accel->intersect(ray);
         ++rays.rays;
         const float u_channel = scene.medium->monochromatic() ? 0 : sampler.next_1d();

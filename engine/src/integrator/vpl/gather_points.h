@@ -15,6 +15,6 @@ namespace glimmer {
 /// Scattering points of the medium on `count` random camera rays through the pixels, each from another stratum of the
 /// distances. Fewer where a ray's segment does not scatter; none where camera rays start within a dielectric.
 std::vector<Vec3f> sample_gather_points(const Scene &scene, const Rectangle &pixels, const InteriorStack &around_camera,
-                                        uint32_t count, Sampler &sampler, TraceContext &rays);
+                                        uint32_t count, ShutterTime time, Sampler &sampler, TraceContext &rays);
 
 } // namespace glimmer

@@ -95,11 +95,13 @@ class LightSubpath {
                 return;
             Interaction surface = scene_.interaction(segment.ray, *hit);
             splat_arena_.clear();
-            const Rgb through = scene_.materials.shade(surface, {-segment.ray.direction}, splat_arena_).transparency;
+            const Rgb through =
+                scene_.materials.shade(surface, {-segment.ray.direction, 0, segment.ray.time}, splat_arena_)
+                    .transparency;
             if (is_black(through))
                 return;
             segment.power *= through * scene_.medium->transmittance(segment.ray, hit->t);
-            segment.ray = {surface.origin_towards(segment.ray.direction), segment.ray.direction};
+            segment.ray = {surface.origin_towards(segment.ray.direction), segment.ray.direction, segment.ray.time};
         }
     }
 
@@ -137,7 +139,7 @@ class LightSubpath {
             next.from_delta = false;
             next.specular_depth = 0;
             next.remainder = 0;
-            next.ray = {x, medium.phase().sample(before, sampler_.next_2d()).direction};
+            next.ray = {x, medium.phase().sample(before, sampler_.next_2d()).direction, next.ray.time};
             branches_.push_back(next);
         });
     }
@@ -146,12 +148,12 @@ class LightSubpath {
     void meet_surface(Branch &path, const Hit &hit, float t_max) {
         Interaction surface = scene_.interaction(path.ray, hit);
         arena_.clear();
-        const Shading shading = scene_.materials.shade(surface, {-path.ray.direction}, arena_);
+        const Shading shading = scene_.materials.shade(surface, {-path.ray.direction, 0, path.ray.time}, arena_);
         if (const float through = max_component(shading.transparency); through > 0) {
             const float share = through / (through + max_component(albedo(shading.bsdf)));
             if (share == 1 || sampler_.next_1d() < share) {
                 path.power *= shading.transparency * (1 / share);
-                path.ray = {surface.origin_towards(path.ray.direction), path.ray.direction, t_max};
+                path.ray = {surface.origin_towards(path.ray.direction), path.ray.direction, path.ray.time, t_max};
                 --path.depth.depth; // no vertex: the next segment counts its end again
                 branches_.push_back(path);
                 return;
@@ -326,7 +328,7 @@ class LightSubpath {
     void leave(Branch &path, const Interaction &surface, const Vec3f &direction, float remainder) {
         path.from_delta = false;
         path.remainder = remainder;
-        path.ray = {surface.origin_towards(direction), direction};
+        path.ray = {surface.origin_towards(direction), direction, path.ray.time};
     }
 
     bool survives_specular(Branch &path) {
@@ -406,7 +408,7 @@ std::vector<double> start_shares(const LightSet &lights, const ImportanceMap &im
 } // namespace
 
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
-                                   Sampler &sampler, TraceContext &rays) {
+                                   ShutterTime time, Sampler &sampler, TraceContext &rays) {
     LightVertices out;
     out.medium.directed = scene.medium && scene.medium->phase().g != 0;
     out.medium.counted = !(settings.limits == DepthLimits{});
@@ -431,9 +433,10 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
             auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());
             if (!start || is_black(start->power))
                 continue;
+            start->ray.time = time;
             start->power *= float((both ? 2 : 1) / (shares[i] * settings.paths));
             const float target = max_component(start->power) * importance(b.center);
-            subpath.trace(*start, traits(lights[i]).delta, dielectrics_at(scene, start->ray.origin), target);
+            subpath.trace(*start, traits(lights[i]).delta, dielectrics_at(scene, start->ray.origin, time), target);
         }
     }
     return out;

@@ -13,6 +13,6 @@ namespace glimmer {
 /// Traces settings.paths light subpaths. The mean over waves of the vertices' power, in any region, is the power that
 /// is scattered there. Fewer subpaths, and of no use, once the trace is stopped.
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
-                                   Sampler &sampler, TraceContext &rays);
+                                   ShutterTime time, Sampler &sampler, TraceContext &rays);
 
 } // namespace glimmer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/vpl/light_vertex_cache.h"
 
+#include "integrator/shutter.h"
 #include "integrator/vpl/gather_points.h"
 #include "integrator/vpl/importance_map.h"
 #include "integrator/vpl/light_subpaths.h"
@@ -18,6 +19,7 @@ struct LightVertexWave final : WaveData {
                vertices.surface.capacity() * sizeof(SurfaceVertex) + vertices.splats.capacity() * sizeof(Splat);
     }
     uint64_t seed, sample;
+    ShutterTime time; ///< of all of its rays
     LightVertices vertices;
 };
 
@@ -62,12 +64,13 @@ std::unique_ptr<const WaveData> LightVertexCache::prepare_wave(uint64_t seed, ui
     auto wave = std::make_unique<LightVertexWave>();
     wave->seed = seed;
     wave->sample = sample;
+    wave->time = time_of_wave(seed, sample);
     Sampler sampler = make_stream(Stream::wave, seed, sample, 0, 0);
     const FilmSettings &film = scene_.film;
     const Rectangle picture{film.crop_x, film.crop_y, film.crop_width, film.crop_height};
-    const ImportanceMap importance(
-        scene_, sample_gather_points(scene_, picture, around_camera_, tuning::kImportancePoints, sampler, rays));
-    wave->vertices = trace_light_subpaths(scene_, importance, settings_, sampler, rays);
+    const ImportanceMap importance(scene_, sample_gather_points(scene_, picture, around_camera_,
+                                                                tuning::kImportancePoints, wave->time, sampler, rays));
+    wave->vertices = trace_light_subpaths(scene_, importance, settings_, wave->time, sampler, rays);
     return wave;
 }
 
@@ -76,9 +79,9 @@ std::unique_ptr<const BlockData> LightVertexCache::prepare_block(const WaveData 
     const auto &wave = static_cast<const LightVertexWave &>(data);
     Sampler sampler = make_stream(Stream::block, wave.seed, wave.sample, block.x, block.y);
     const std::vector<Vec3f> points =
-        sample_gather_points(scene_, block, around_camera_, tuning::kBlockPoints, sampler, rays);
+        sample_gather_points(scene_, block, around_camera_, tuning::kBlockPoints, wave.time, sampler, rays);
     auto shared = std::make_unique<LightVertexBlock>(
-        settings_, BlockVertices(scene_, wave.vertices, settings_, points, sampler), block);
+        settings_, BlockVertices(scene_, wave.vertices, settings_, points, wave.time, sampler), block);
     for (const Splat &s : wave.vertices.splats)
         if (s.x - block.x < block.width && s.y - block.y < block.height) // unsigned, so not before the block either
             shared->splats[size_t(s.y - block.y) * block.width + (s.x - block.x)] += s.radiance;

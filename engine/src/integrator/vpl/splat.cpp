@@ -28,7 +28,7 @@ RayInterval range_in_picture(const Scene &scene, const Ray &ray) {
 }
 
 /// Splats a point that scatters `power`, which arrives along `direction`.
-void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, const Rgb &power,
+void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, ShutterTime time, const Rgb &power,
                  const VplSettings &settings, Sampler &sampler, TraceContext &rays, std::vector<Splat> &out) {
     const Camera &camera = scene.camera;
     const Vec2f u_lens = sampler.next_2d();
@@ -45,7 +45,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, con
                 bottom = std::min(v + half, float(film.crop_y + film.crop_height) - 0.5f);
     if (!(left <= right && top <= bottom))
         return;
-    const Ray way{seen->start, seen->direction, seen->t};
+    const Ray way{seen->start, seen->direction, time, seen->t};
     const float pixel_area = seen->area(float(film.width) * float(film.height)); // if the filter were a point
     const Rgb radiance = power * scene.medium->transmittance(way, seen->t) *
                          (scene.medium->phase().eval(seen->direction, -direction) *
@@ -87,7 +87,7 @@ void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings 
         if (!(pdf > 0) || !(t >= 0 && t < kInfinity))
             continue;
         const Vec3f x = segment.ray.origin + segment.ray.direction * t;
-        splat_point(scene, x, segment.ray.direction,
+        splat_point(scene, x, segment.ray.direction, segment.ray.time,
                     segment.power * medium.scattering(x) * medium.transmittance(segment.ray, t) *
                         (segment.remainder / pdf),
                     settings, sampler, rays, out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/vpl/vpl_settings.h"
 
+#include "integrator/shutter.h"
 #include "integrator/vpl/gather_points.h"
 #include "integrator/vpl/light_subpaths.h"
 #include "integrator/vpl/streams.h"
@@ -70,12 +71,12 @@ VplSettings make_vpl_settings(const Scene &scene, const DepthLimits &limits, con
     Sampler sampler = make_stream(Stream::pilot, 0, 0, 0, 0);
     const Rectangle picture{film.crop_x, film.crop_y, film.crop_width, film.crop_height};
     const std::vector<Vec3f> points =
-        sample_gather_points(scene, picture, around_camera, tuning::kPilotPoints, sampler, rays);
+        sample_gather_points(scene, picture, around_camera, tuning::kPilotPoints, kMidShutter, sampler, rays);
     VplSettings pilot_settings = settings;
     pilot_settings.paths = std::min(settings.paths, tuning::kMostPilotPaths);
-    const ImportanceMap importance(
-        scene, sample_gather_points(scene, picture, around_camera, tuning::kImportancePoints, sampler, rays));
-    const LightVertices pilot = trace_light_subpaths(scene, importance, pilot_settings, sampler, rays);
+    const ImportanceMap importance(scene, sample_gather_points(scene, picture, around_camera, tuning::kImportancePoints,
+                                                               kMidShutter, sampler, rays));
+    const LightVertices pilot = trace_light_subpaths(scene, importance, pilot_settings, kMidShutter, sampler, rays);
     limit_vertices(settings, pilot_settings.paths, std::max(pilot.medium.size(), pilot.surface.size()));
 
     std::vector<float> densities = densities_about(points, pilot.medium);

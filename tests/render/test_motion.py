@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What moves while the shutter is open, against closed forms: how long each place is covered, and how it is turned."""
+
+from math import cos, sin
+
+import numpy as np
+import pytest
+
+from addon.scene import description as d
+from tests.engine.library import Render, Scene
+from tests.render.build import Array, Builder, floor, grey, look_at, sky
+from tests.render.statistics import Measurement, Pictures, check_mean
+
+SIDE = 16  # pixels, and the length that they show
+
+
+def from_above() -> d.Camera:
+    """x to the right."""
+    return d.Camera(look_at((0, 0, 10), (0, 0, 0), (0, 1, 0)), d.Orthographic(SIDE))
+
+
+def moved(*x: float) -> Array:
+    steps = np.tile(np.eye(4), (len(x), 1, 1))
+    steps[:, 0, 3] = x
+    return steps
+
+
+def covered_until(x: Array, places: tuple[float, ...]) -> Array:
+    """The part of the time for which an edge that goes through these places, to the right, is left of x."""
+    return np.interp(x, places, np.linspace(0, 1, len(places)))
+
+
+@pytest.mark.parametrize(("integrator", "places"), [("path", (-6.0, 2.0, 4.0)), ("baseline", (-4.0, 4.0))])
+def test_an_edge_that_moves(integrator: str, places: tuple[float, ...]) -> None:
+    """Across pixels without a filter: what is seen of the sky behind it grows evenly between the places."""
+    scene = Builder(from_above(), SIDE, SIDE, environment=sky(1))
+    edge = floor(0, 30, (-33, 0))  # its right side at 0: the plate's middle is .1 half widths to the right
+    scene.mesh(edge, d.Lambert(grey(0)), motion=moved(*places))
+    columns = np.arange(SIDE) + 0.5 - SIDE / 2
+    pictures = Pictures(Measurement(scene.done(), integrator, samples=16))
+    check_mean(
+        lambda seed: pictures(seed).mean(axis=(0, 2)), covered_until(columns, places), within=0.1, what=integrator
+    )
+
+
+def test_normals_turn_with_it() -> None:
+    """A plate that leans over: its matrix is interpolated, and its normal is that of the matrix at each moment."""
+    angle = 0.9
+    steps = np.tile(np.eye(4), (2, 1, 1))
+    steps[1, 1:3, 1:3] = [[cos(angle), -sin(angle)], [sin(angle), cos(angle)]]
+    scene = Builder(from_above(), 4, 4, environment=sky(1)).mesh(floor(0, 40), d.Lambert(grey(0.5)), motion=steps)
+    t = (np.arange(4000) + 0.5) / 4000
+    linear = (1 - t)[:, None, None] * steps[0, :3, :3] + t[:, None, None] * steps[1, :3, :3]
+    normals = np.linalg.inv(linear).transpose(0, 2, 1)[:, :, 2]
+    expected = (normals / np.linalg.norm(normals, axis=1)[:, None]).mean(axis=0)
+    with Render(Scene(scene.done()), integrator="path", samples=1024, seed=0, passes=("normal",)) as render:
+        seen = render.run().read("normal").astype(np.float64).mean(axis=(0, 1))
+    np.testing.assert_allclose(seen, expected, atol=2e-3)
+
+
+def test_a_half_turn_needs_more_steps() -> None:
+    """Interpolated matrices fold up in its middle: it is held still, and says so."""
+    steps = np.tile(np.eye(4), (2, 1, 1))
+    steps[1, :2, :2] *= -1
+    scene = Builder(from_above(), 4, 4, environment=sky(1)).mesh(floor(0, 40), d.Lambert(grey(0.5)), motion=steps)
+    assert any("held still" in line for line in Scene(scene.done()).warnings())
+
+
+def test_what_shines_is_held_still() -> None:
+    """Where it is in the middle of its motion, and it says so."""
+    scene = Builder(from_above(), SIDE, SIDE).mesh(floor(0, 2, (-0.2, 0)), d.Light(grey(1)), motion=moved(-6, 4, 6))
+    done = Scene(scene.done())
+    assert any("shine, so they are held still" in line for line in done.warnings())
+    with Render(done, integrator="path", samples=4, seed=0) as render:
+        seen = render.run().read("combined")[SIDE // 2, :, 0]
+    assert list(np.flatnonzero(seen > 0.5)) == list(range(SIDE // 2 + 2, SIDE // 2 + 6))
