@@ -11,7 +11,7 @@ import sys
 
 import bpy
 
-from . import curve_files, engine, failure, hexfield, moons, operators, properties, reports, ui
+from . import callbacks, curve_files, engine, failure, hexfield, moons, operators, properties, reports, ui
 from .native import render
 from .viewport import redraw
 from .viewport import session as view_session
@@ -42,7 +42,12 @@ def register() -> None:
         raise
     # The bpy module crashes or hangs at exit while an engine is registered; the executable has freed Blender's side by
     # then, and only our own memory is left.
-    atexit.register(unregister if failure.is_module() else _close_all)
+    if failure.is_module():
+        atexit.unregister(callbacks.forget)
+        atexit.register(callbacks.forget)  # stays when the add-on is disabled, and runs after `unregister`
+        atexit.register(unregister)
+    else:
+        atexit.register(_close_all)
 
 
 def _package_at_work() -> str | None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 
+from ..callbacks import of_group_and
 from .parameters import Control, FieldParameters, controls
 
 
@@ -29,11 +30,14 @@ def write(group: Any, parameters: FieldParameters) -> None:
     group.enabled = enabled
 
 
-def _changed(group: Any, _context: Any) -> None:
+def _rebuild(group: Any, _context: Any) -> None:
     from . import field
 
     if group.enabled:
         field.rebuild(group.id_data, read(group))
+
+
+_changed = of_group_and(_rebuild)
 
 
 def blender_property(name: str, control: Control, default: Any, update: Any = None) -> Any:

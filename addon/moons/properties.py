@@ -5,6 +5,8 @@ from typing import Any
 
 import bpy
 
+from ..callbacks import of_group, of_group_and
+
 
 def _radius(group: Any) -> float:
     return float(max(abs(scale) for scale in group.id_data.scale))
@@ -21,8 +23,8 @@ class GlimmerMoon(bpy.types.PropertyGroup):
         min=1e-4,
         soft_max=100,
         unit="LENGTH",
-        get=_radius,
-        set=_set_radius,
+        get=of_group(_radius),
+        set=of_group_and(_set_radius),
         options=set(),
     )
 

@@ -5,6 +5,7 @@ from zlib import crc32
 
 import bpy
 
+from ..callbacks import of_group_and
 from ..native.library import load
 from ..scene.problems import GlimmerError
 
@@ -72,7 +73,9 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         " nothing in even haze",
         default=False,
     )
-    integrator: bpy.props.EnumProperty(name="Integrator", description="How light is followed", items=list_integrators)
+    integrator: bpy.props.EnumProperty(
+        name="Integrator", description="How light is followed", items=of_group_and(list_integrators)
+    )
     seed: bpy.props.IntProperty(
         name="Seed", description="Another seed gives other noise and the same picture", default=0, min=0
     )
