@@ -5,8 +5,8 @@ from pathlib import Path
 
 from hosts import Host
 
-# Blender 4.2, which no test runs, ends with a segmentation fault where the function of a property leads to bpy: every one
-# is looked at in the hosts there are.
+# Blender 4.2, which no test runs, ends with a segmentation fault where the function of a property leads to bpy: each is
+# looked at in the hosts there are.
 SCRIPT = """
 import sys
 import bpy
