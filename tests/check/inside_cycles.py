@@ -170,7 +170,7 @@ def add_spheres(item: dict[str, Any], descriptions: list[dict[str, Any]], materi
 def make_camera(camera: dict[str, Any]) -> Any:
     data = bpy.data.cameras.new("Camera")
     data.sensor_fit, data.sensor_width = "HORIZONTAL", 36.0
-    data.lens = 18.0 / math.tan(math.radians(camera["fov_x"]) / 2)
+    data.lens = 18.0 / math.tan(math.radians(camera["projection"]["fov_x"]) / 2)
     data.clip_start, data.clip_end = 1e-6, 1e12  # the first is the least that Blender takes
     return put("Camera", data, Matrix(camera["to_world"]))
 
