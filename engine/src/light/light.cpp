@@ -10,7 +10,7 @@ std::optional<LightSample> sample_light(const Light &light, const Vec3f &x, Vec2
 float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, const LightHit &hit) {
     return std::visit(
         [&](const auto &l) {
-            if constexpr (l.traits.delta)
+            if constexpr (std::decay_t<decltype(l)>::traits.delta)
                 return 0.0f;
             else
                 return pdf(l, x, direction, hit);
@@ -21,7 +21,7 @@ float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, cons
 std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray) {
     return std::visit(
         [&](const auto &l) -> std::optional<LampHit> {
-            if constexpr (l.traits.intersectable)
+            if constexpr (std::decay_t<decltype(l)>::traits.intersectable)
                 return intersect(l, ray);
             else
                 return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray) {
 Rgb radiance_from_infinity(const Light &light, const Vec3f &direction) {
     return std::visit(
         [&](const auto &l) {
-            if constexpr (l.traits.infinite)
+            if constexpr (std::decay_t<decltype(l)>::traits.infinite)
                 return radiance_at_infinity(l, direction);
             else
                 return Rgb();
@@ -48,7 +48,7 @@ std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f 
                                         float u_choice) {
     return std::visit(
         [&](const auto &l) -> std::optional<Emission> {
-            if constexpr (l.traits.infinite)
+            if constexpr (std::decay_t<decltype(l)>::traits.infinite)
                 return std::nullopt;
             else
                 return emit(l, inwards, u_position, u_direction, u_choice);

@@ -49,11 +49,11 @@ LightSet::LightSet(std::vector<Light> lights) : lights_(std::move(lights)) {
         strengths.push_back(double(bounds_.back().strength));
         std::visit(
             [&](const auto &l) {
-                if constexpr (l.traits.in_bvh)
+                if constexpr (std::decay_t<decltype(l)>::traits.in_bvh)
                     claim_surfaces(l, i);
-                if constexpr (l.traits.infinite)
+                if constexpr (std::decay_t<decltype(l)>::traits.infinite)
                     infinite_.push_back(i);
-                if constexpr (l.traits.intersectable)
+                if constexpr (std::decay_t<decltype(l)>::traits.intersectable)
                     intersectable_lamps_.push_back(i);
             },
             light);

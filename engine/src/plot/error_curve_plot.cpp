@@ -68,7 +68,7 @@ bool has_interval(const glimmer_curve_point &p) {
 class Plot {
   public:
     Plot(const Points &points, int width, int height, const PlotStyle &style)
-        : points_(points), style_(style), inks_(style), canvas_(width, height, style.background) {}
+        : points_(points), inks_(style), canvas_(width, height, style.background) {}
 
     Canvas draw() {
         const bool wide = canvas_.width() >= kWide;
@@ -195,7 +195,6 @@ class Plot {
     static constexpr double kTickHeight = 1.6 * kTextHeight, kTickWidth = 4 * kTextHeight;
 
     const Points &points_;
-    const PlotStyle &style_;
     const Inks inks_;
     Canvas canvas_;
     LogAxis x_{}, y_{};
