@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..native.library import load
 from ..scene.description import Rgb
 from ..scene.problems import Notices
+from ..scene.program import Op
 from .color import blackbody, luminance, mean_fresnel, srgb_to_linear
 from .translate import arithmetic, image, pattern, surface, vector
 from .translate import color as color_nodes
@@ -69,6 +71,14 @@ class Input:
 
 class NotConstantError(Exception):
     """A value that varies over a surface or a direction."""
+
+
+def unknown_mode(value: Value) -> str | None:
+    """A mode of an operation that the engine does not have: a newer Blender's nodes may know more than we do."""
+    if not isinstance(value, Op):
+        return None
+    words = load().op_rows[value.name].modes
+    return next((word for word, known in zip(value.modes, words, strict=False) if word not in known), None)
 
 
 class NotTranslatedError(Exception):
@@ -192,7 +202,10 @@ class Nodes:
         translate = _OPERATIONS.get(source.node.bl_idname)
         if translate is not None:
             try:
-                return translate(self, source)
+                value = translate(self, source)
+                if word := unknown_mode(value):
+                    self.not_translated(source, f"its option '{word}'")
+                return value
             except NotTranslatedError as error:
                 return self._substitute(source, str(error))
         return self._substitute(source, "")

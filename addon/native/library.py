@@ -8,7 +8,7 @@ import ctypes
 import os
 from ctypes import POINTER, byref, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_void_p
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TypeVar
 
@@ -211,6 +211,7 @@ class Library:
                 number += 1
         return self._materials
 
+    @cached_property
     def op_rows(self) -> dict[str, OpRow]:
         """The operations of shader programs by name."""
         return op_rows(self._library.glimmer_op_info)

@@ -66,7 +66,7 @@ class ProgramAdder:
     def __init__(self, library: Library, scene: c_void_p) -> None:
         self._library = library
         self._scene = scene
-        self._rows = library.op_rows()
+        self._rows = library.op_rows
         self._textures: dict[bytes, c_void_p] = {}
 
     def add(self, name: str, program: Program) -> int:

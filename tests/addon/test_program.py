@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 
+from addon.export.nodes import unknown_mode
 from addon.scene.description import Lambert, Light, Mix
 from addon.scene.program import Op, Output, Program, Texture, TooLargeError, compile_program, programmed
 
@@ -75,3 +76,9 @@ def test_textures_of_equal_content_have_one_digest() -> None:
     assert Texture("a", pixels).digest == Texture("b", pixels.copy()).digest
     assert Texture("a", pixels).digest != Texture("a", pixels, srgb=True).digest
     assert Texture("a", pixels).digest != Texture("a", pixels.reshape(1, 4, 3)).digest
+
+
+def test_options_of_a_newer_blender_are_found() -> None:
+    assert unknown_mode(add(1.0, 2.0)) is None
+    assert unknown_mode(Op("dot", ((0.0,) * 3, (0.0,) * 3))) is None
+    assert unknown_mode(Op("math", (1.0, 2.0, 0.0), ("from_the_future", "free"))) == "from_the_future"

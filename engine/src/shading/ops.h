@@ -81,7 +81,7 @@ inline constexpr std::array<glimmer_op_info_t, size_t(Op::count)> kOps{{
      "nnn", 'n', '-'},
     {"vector_math",
      "add subtract multiply divide multiply_add cross_product project reflect refract faceforward scale normalize "
-     "absolute minimum maximum floor ceil fraction modulo wrap snap sine cosine tangent power sign",
+     "absolute minimum maximum floor ceil fraction modulo wrap snap sine cosine tangent power sign round",
      "vvvn", 'v', '-'},
     {"dot", "", "vv", 'n', '-'},
     {"distance", "", "vv", 'n', '-'},

@@ -89,7 +89,7 @@ def test_a_bad_attribute_is_refused(changes: dict[str, Any], words: str) -> None
 def add_program(scene: c_void_p, *roots: Op, **changes: Any) -> tuple[int, int]:
     """Result and number. Textures of the program are left out."""
     desc = engine().init(structs.ProgramDesc)
-    keep = fill_program(desc, compile_program(roots), [], engine().op_rows())
+    keep = fill_program(desc, compile_program(roots), [], engine().op_rows)
     number = c_uint32(12345)
     result = functions().glimmer_scene_add_program(scene, byref(changed(desc, changes)), byref(number))
     del keep

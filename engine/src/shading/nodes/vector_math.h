@@ -35,7 +35,8 @@ enum class VectorMathKind : uint8_t {
     cosine,
     tangent,
     power,
-    sign
+    sign,
+    round
 };
 
 template <class F>
@@ -126,6 +127,8 @@ inline Vec3f vector_math(VectorMathKind kind, const Vec3f &a, const Vec3f &b, co
         return by_number(MathKind::power);
     case K::sign:
         return of_one(MathKind::sign);
+    case K::round:
+        return of_one(MathKind::round);
     }
     return {};
 }
