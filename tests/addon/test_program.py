@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Graphs of operations as straight-line code."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from addon.export.nodes import unknown_mode
+from addon.native import library
 from addon.scene.description import Lambert, Light, Mix
 from addon.scene.program import Op, Output, Program, Texture, TooLargeError, compile_program, programmed
 
@@ -78,7 +81,8 @@ def test_textures_of_equal_content_have_one_digest() -> None:
     assert Texture("a", pixels).digest != Texture("a", pixels.reshape(1, 4, 3)).digest
 
 
-def test_options_of_a_newer_blender_are_found() -> None:
+def test_options_of_a_newer_blender_are_found(library_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(library.VARIABLE, str(library_dir / "libglimmer.so"))
     assert unknown_mode(add(1.0, 2.0)) is None
     assert unknown_mode(Op("dot", ((0.0,) * 3, (0.0,) * 3))) is None
     assert unknown_mode(Op("math", (1.0, 2.0, 0.0), ("from_the_future", "free"))) == "from_the_future"
