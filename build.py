@@ -542,6 +542,31 @@ def tune(name: str, scenes: str | None, blender: Path) -> None:
     run([*command, "--output", BUILD / "bench" / "tuning"], env=host_environment(BUILD / "profile", blender))
 
 
+@dataclass(frozen=True)
+class CompareOptions:
+    scene: Path
+    width: int
+    samples: int
+    timeout: int
+    output: Path | None
+
+
+def compare(blender: str | None, options: CompareOptions) -> None:
+    if not options.scene.exists():
+        raise BuildError(f"{options.scene}: no such file")
+    executable = setup(blender, ("build", "render", "test"))
+    build()
+    host: list[str | Path] = [virtual_environment("bpy")]
+    if executable is not None:
+        host = [executable, "-b", "--factory-startup", "--disable-autoexec", "--python-exit-code", "1", "--python"]
+    sizes = [f"--{name}={getattr(options, name)}" for name in ("width", "samples", "timeout")]
+    said = shlex.join(["python3", "build.py", "compare", options.scene.name, *sizes])
+    output = options.output or BUILD / "compare" / options.scene.stem
+    command: list[str | Path] = [virtual_environment("test"), "-m", "tests.bench.compare", options.scene, *sizes]
+    command += ["--output", output, "--said", said, "--", *host]
+    run(command, env=host_environment(BUILD / "profile", executable))
+
+
 def claims(blender: str | None, seeds: int) -> None:
     executable = setup(blender, ("build", "render", "test"))
     if executable is None:
@@ -690,6 +715,17 @@ def arguments() -> argparse.ArgumentParser:
         "-o", "--output", type=Path, metavar="FOLDER", help="for the page and its plot (default: build/bench)"
     )
     item = command(
+        "compare",
+        "Render a .blend by Cycles and by Glimmer; write a page with both pictures, where they differ beyond noise, "
+        "and what Glimmer says of it.",
+        blender=True,
+    )
+    item.add_argument("scene", type=Path, metavar="FILE.blend", help="its scripts are not run")
+    item.add_argument("--width", type=int, default=240, metavar="PIXELS", help="of the pictures (default: 240)")
+    item.add_argument("--samples", type=int, default=64, metavar="N", help="samples a pixel of each (default: 64)")
+    item.add_argument("--timeout", type=int, default=3600, metavar="SECONDS", help="for each engine (default: 3600)")
+    item.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="(default: build/compare/FILE)")
+    item = command(
         "claims",
         "Render three scenes many times; print what renders say of their error beside the error that they made. "
         "Finished ones are kept under build/bench/claims.",
@@ -742,6 +778,12 @@ def main(argv: Sequence[str]) -> int:
             )
         elif given.command == "test":
             test(given.blender, given.full, given.extra)
+        elif given.command == "compare":
+            positive(parser, "width", given.width, 1 << 15)
+            positive(parser, "samples", given.samples, 1 << 20)
+            output = given.output.absolute() if given.output else None
+            scene = given.scene.absolute()
+            compare(given.blender, CompareOptions(scene, given.width, given.samples, given.timeout, output))
         elif given.command == "claims":
             claims(given.blender, given.seeds)
         elif given.command == "bench":

@@ -38,7 +38,7 @@ def test_imports_nothing_but_the_standard_library(file: str, own: set[str]) -> N
 
 def test_help_names_every_command() -> None:
     text = build_py("--help").stdout
-    for command in ("setup", "build", "render", "test", "bench", "check", "lint", "package", "clean"):
+    for command in ("setup", "build", "render", "test", "bench", "compare", "check", "lint", "package", "clean"):
         assert re.search(rf"^ +{command} ", text, re.MULTILINE), command
         assert build_py(command, "--help").stdout.startswith(f"usage: build.py {command}")
 
@@ -51,6 +51,8 @@ def test_help_names_every_command() -> None:
         (("render", "nowhere.blend"), "nowhere.blend: no such file"),
         (("setup", "--blender", "/nowhere/blender"), "--blender /nowhere/blender: no such executable"),
         (("bench", "--peers", "mitsuba,arnold"), "--peers arnold: must be of mitsuba, luxcore"),
+        (("compare", "nowhere.blend"), "nowhere.blend: no such file"),
+        (("compare", "nowhere.blend", "--width", "0"), "--width 0: must be from 1"),
         (("polish",), "invalid choice: 'polish'"),
     ],
 )

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Renders a .blend by Cycles and by Glimmer and writes a page: where the two pictures differ beyond noise, and why.
+
+`python3 build.py compare FILE.blend` runs this as `python -m tests.bench.compare` from the root of the checkout. The
+engines run one after the other, each in a process of its own, so that memory and CPU time are each one's own.
+"""
+
+import argparse
+import html
+import json
+import subprocess
+import sys
+import tempfile
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+ENGINES = ("CYCLES", "GLIMMER")
+NAMES = {"CYCLES": "Cycles", "GLIMMER": "Glimmer"}
+SEEDS = 4  # renders by each engine; their spread is the noise
+BLOCK = 12  # pixels
+TOLERANCE = 0.05  # of the display range: what a block may differ and the picture is still the same
+SIGMAS = 3.0  # of noise that are taken off a difference
+_SCRIPT = Path(__file__).with_name("inside_compare.py")
+_STANDS_OUT = 4.0  # by which the page's picture of the difference is multiplied
+
+Values = NDArray[np.floating]
+
+
+class CompareError(Exception):
+    """Why there is no page, in words."""
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """By one engine: (seeds, height, width, 3) in linear light and as shown, bottom row first."""
+
+    linear: Values
+    display: Values
+    cpu: float  # seconds of all seeds
+    peak_bytes: int  # of Blender's process
+    notices: tuple[str, ...]
+    version: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    ratio: float  # of the means, Glimmer / Cycles
+    least: float  # of the blocks' ratios
+    largest: float
+    beyond: Values  # (rows, columns, 3): signed difference of each block beyond noise, of the display range
+    noise: float  # the median standard error of a block's difference
+
+    @property
+    def apart(self) -> int:
+        """Blocks that differ by more than the tolerance."""
+        return int((np.abs(self.beyond).max(axis=-1) > TOLERANCE).sum())
+
+
+def blocks_of(pictures: Values, size: int = BLOCK) -> Values:
+    """(..., height, width, 3) -> (..., rows, columns, 3) of means; smaller blocks at the far edges."""
+    height, width = pictures.shape[-3:-1]
+    rows, columns = np.arange(0, height, size), np.arange(0, width, size)
+    sums = np.add.reduceat(np.add.reduceat(pictures.astype(np.float64), rows, axis=-3), columns, axis=-2)
+    counts = np.diff([*rows, height])[:, None] * np.diff([*columns, width])[None, :]
+    return np.asarray(sums / counts[..., None])
+
+
+def judge(cycles: Rendered, glimmer: Rendered) -> Verdict:
+    """Blocks are compared as shown, and their ratios in linear light."""
+    shown = [blocks_of(item.display) for item in (cycles, glimmer)]
+    variance = np.sum([blocks.var(axis=0, ddof=1) / len(blocks) for blocks in shown], axis=0)
+    # A few seeds may agree by luck: no block is taken to be quieter than half of the others are.
+    error = np.sqrt(np.maximum(variance, np.median(variance)))
+    difference = shown[1].mean(axis=0) - shown[0].mean(axis=0)
+    beyond = np.sign(difference) * np.maximum(np.abs(difference) - SIGMAS * error, 0.0)
+    light = [blocks_of(item.linear).mean(axis=(0, -1)) for item in (cycles, glimmer)]
+    floor = 1e-3 * max(float(light[0].mean()), 1e-9)
+    ratios = (light[1] + floor) / (light[0] + floor)
+    means = [float(item.linear.mean(dtype=np.float64)) for item in (cycles, glimmer)]
+    ratio = means[1] / means[0] if means[0] else float("nan")
+    return Verdict(ratio, float(ratios.min()), float(ratios.max()), beyond, float(np.median(error)))
+
+
+def png(pixels: Values) -> bytes:
+    """(height, width, 3) of 0 to 1, top row first."""
+    rows = np.round(np.clip(pixels, 0.0, 1.0) * 255.0).astype(np.uint8)
+    height, width = rows.shape[:2]
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return len(data).to_bytes(4, "big") + kind + data + zlib.crc32(kind + data).to_bytes(4, "big")
+
+    header = width.to_bytes(4, "big") + height.to_bytes(4, "big") + bytes([8, 2, 0, 0, 0])
+    lines = b"".join(b"\0" + row.tobytes() for row in rows)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b"")
+
+
+def difference_picture(verdict: Verdict, height: int, width: int) -> Values:
+    """Grey where the engines agree within noise; red where Glimmer is brighter, blue where Cycles is."""
+    signed = verdict.beyond.mean(axis=-1).repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)[:height, :width]
+    amount = np.clip(_STANDS_OUT * np.abs(signed), 0.0, 1.0)
+    target = np.where(signed[..., None] > 0.0, [0.9, 0.1, 0.1], [0.1, 0.2, 0.9])
+    return np.asarray((0.5 + amount[..., None] * (target - 0.5))[::-1])
+
+
+def verdict_line(verdict: Verdict) -> str:
+    count = verdict.beyond.shape[0] * verdict.beyond.shape[1]
+    same = "the same picture" if verdict.apart == 0 else f"{verdict.apart} of {count} blocks differ"
+    ratios = f"ratio of the means {verdict.ratio:.3f}, of the blocks {verdict.least:.2f} to {verdict.largest:.2f}"
+    return f"{same}; {ratios}"
+
+
+def page(file: Path, rendered: dict[str, Rendered], verdict: Verdict, said: str) -> str:
+    cycles, glimmer = rendered["CYCLES"], rendered["GLIMMER"]
+    figures = "".join(
+        f'<figure><img src="{name}.png" alt="{title}"><figcaption>{title}</figcaption></figure>\n'
+        for name, title in (("CYCLES", "Cycles"), ("GLIMMER", "Glimmer"), ("difference", "Difference beyond noise"))
+    )
+    rows = "".join(
+        f"<tr><td>{NAMES[engine]}</td><td>{item.linear.mean():.5g}</td><td>{item.cpu:.1f}</td>"
+        f"<td>{item.peak_bytes / 2**20:.0f}</td></tr>\n"
+        for engine, item in rendered.items()
+    )
+    notices = "".join(f"<li>{html.escape(line)}</li>\n" for line in glimmer.notices) or "<li>none</li>\n"
+    title = html.escape(file.name)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>{title}: Glimmer beside Cycles</title>
+<style>
+body {{ font-family: sans-serif; max-width: 80em; margin: 2em auto; }}
+figure {{ display: inline-block; margin: 0 1em 1em 0; }}
+img {{ image-rendering: pixelated; width: 25em; }}
+td, th {{ padding: 0 1em; text-align: right; }}
+</style>
+</head>
+<body>
+<h1>{title}</h1>
+<p>{html.escape(verdict_line(verdict))}.</p>
+{figures}
+<table>
+<tr><th>Engine</th><th>Mean</th><th>CPU seconds</th><th>Memory, MB</th></tr>
+{rows}</table>
+<h2>What Glimmer says</h2>
+<ul>
+{notices}</ul>
+<h2>How</h2>
+<p>Made by <code>{html.escape(said)}</code> with Blender {html.escape(cycles.version)}. {len(cycles.linear)} renders by
+each engine, whose CPU seconds are added up; memory is the peak of Blender's process. Cycles with many bounces, without
+clamping, denoiser, adaptive sampling and compositor. Blocks of {BLOCK} pixels are compared as the file's view
+transform shows them; {SIGMAS:g} standard errors of their difference count as noise (their median is
+{verdict.noise:.2g}), and a block differs where more than {TOLERANCE:.0%} of the display's range is left. Red: Glimmer
+is brighter; blue: Cycles.</p>
+</body>
+</html>
+"""
+
+
+def render(command: Sequence[str], engine: str, job: dict[str, Any], timeout: float) -> Rendered:
+    folder = Path(job["folder"])
+    path = folder / "job.json"
+    path.write_text(json.dumps({**job, "engine": engine}))
+    words = [*command, str(_SCRIPT), "--", str(path)]
+    try:
+        result = subprocess.run(words, capture_output=True, text=True, errors="replace", timeout=timeout, check=False)
+    except subprocess.TimeoutExpired:
+        raise CompareError(f"{NAMES[engine]} was not done after {timeout:g} s") from None
+    if result.returncode != 0:
+        raise CompareError(f"{NAMES[engine]} made no picture:\n{(result.stdout + result.stderr)[-3000:]}")
+    told = json.loads((folder / f"{engine}.json").read_text())
+    with np.load(folder / f"{engine}.npz") as arrays:
+        linear, display = arrays["linear"], arrays["display"]
+    return Rendered(linear, display, told["cpu"], told["peak_bytes"], tuple(told["notices"]), told["version"])
+
+
+def compare(command: Sequence[str], file: Path, size: tuple[int, int], output: Path, said: str, timeout: float) -> str:
+    """size: width in pixels, and samples a pixel, which the renders share. Returns the verdict in a line."""
+    width, samples = size
+    output.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        job = {
+            "file": str(file),
+            "width": width,
+            "samples": max(samples // SEEDS, 1),
+            "seeds": SEEDS,
+            "folder": scratch,
+        }
+        rendered = {engine: render(command, engine, job, timeout) for engine in ENGINES}
+        for engine in ENGINES:
+            (output / f"{engine}.png").write_bytes((Path(scratch) / f"{engine}.png").read_bytes())
+    verdict = judge(rendered["CYCLES"], rendered["GLIMMER"])
+    height, width = rendered["CYCLES"].linear.shape[1:3]
+    (output / "difference.png").write_bytes(png(difference_picture(verdict, height, width)))
+    (output / "index.html").write_text(page(file, rendered, verdict, said), encoding="utf-8")
+    return verdict_line(verdict)
+
+
+def main(argv: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.compare", description=__doc__)
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--width", type=int, required=True)
+    parser.add_argument("--samples", type=int, required=True)
+    parser.add_argument("--timeout", type=float, required=True, help="seconds for each engine")
+    parser.add_argument("--output", type=Path, required=True, metavar="FOLDER")
+    parser.add_argument("--said", required=True, metavar="COMMAND", help="how the user started this, for the page")
+    parser.add_argument("host", nargs="+", help="the command that runs a script inside Blender, up to the script")
+    given = parser.parse_args(argv)
+    try:
+        line = compare(given.host, given.file, (given.width, given.samples), given.output, given.said, given.timeout)
+    except CompareError as error:
+        sys.stderr.write(f"compare: {error}\n")
+        return 1
+    sys.stdout.write(f"{given.file.name}: {line}\n{given.output / 'index.html'}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Renders somebody's .blend by one engine, a few seeds of it: inside_compare.py JOB.json
+
+JOB.json holds "file", "engine" (CYCLES or GLIMMER), "width" in pixels, "samples", "seeds" (how many) and "folder".
+Leaves ENGINE.png, as the file's view transform shows the mean of the seeds, and ENGINE.npz: "linear" (seeds, height,
+width, 3) and "display", the same through that transform, bottom row first. And ENGINE.json: seconds, memory, notices.
+"""
+
+import json
+import resource
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import addon_utils
+import bpy
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "blender"))
+
+from exact_cycles import set_up_cycles, use_exr  # noqa: E402 - a neighbour by name
+
+BOUNCES = 64
+KINDS = ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max")
+
+
+def read(path: Path) -> Any:
+    """(height, width, 3) as the file holds it, bottom row first."""
+    image = bpy.data.images.load(str(path), check_existing=False)
+    width, height = image.size
+    pixels = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, -1)[..., :3]
+
+
+def through_view(scene: Any, linear: Any, path: Path) -> Any:
+    """Writes linear light as the PNG that the scene's view transform makes of it, and returns that, 0 to 1."""
+    height, width = linear.shape[:2]
+    image = bpy.data.images.new("Mean", width, height, float_buffer=True, is_data=False)
+    image.pixels.foreach_set(np.concatenate([linear, np.ones((height, width, 1), np.float32)], axis=2).ravel())
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "8"
+    image.save_render(str(path), scene=scene)
+    bpy.data.images.remove(image)
+    return read(path)
+
+
+def prepare(scene: Any, job: dict[str, Any]) -> None:
+    """What both engines share: the size, and nothing after the render."""
+    render = scene.render
+    render.resolution_y = max(round(render.resolution_y * job["width"] / render.resolution_x), 1)
+    render.resolution_x, render.resolution_percentage = job["width"], 100
+    render.use_compositing = render.use_sequencer = False
+    if job["engine"] == "CYCLES":
+        set_up_cycles(scene, samples=job["samples"], **{f"{kind}_bounces": BOUNCES for kind in KINDS})
+        return
+    render.engine = "GLIMMER"
+    settings = scene.glimmer
+    settings.filter, settings.use_samples, settings.samples = "BOX", True, job["samples"]
+    settings.use_seconds = settings.use_target_error = settings.use_adaptive = False
+    settings.use_max_depth = settings.use_max_scatter = False
+
+
+def main(job: dict[str, Any]) -> None:
+    if addon_utils.enable("glimmer", default_set=False) is None:
+        raise RuntimeError("the add-on `glimmer` did not start; the reason stands above")
+    if not hasattr(bpy.types.Scene, "cycles"):
+        addon_utils.enable("cycles", default_set=False)
+    bpy.ops.wm.open_mainfile(filepath=job["file"], load_ui=False, use_scripts=False)
+    scene, folder, engine = bpy.context.scene, Path(job["folder"]), job["engine"]
+    prepare(scene, job)
+    linear, cpu, wall = [], [], []
+    for seed in range(job["seeds"]):
+        scene.cycles.seed = scene.glimmer.seed = seed
+        begin = time.process_time(), time.monotonic()
+        bpy.ops.render.render()
+        cpu.append(time.process_time() - begin[0])
+        wall.append(time.monotonic() - begin[1])
+        use_exr(scene)
+        path = folder / f"{engine}.exr"
+        bpy.data.images["Render Result"].save_render(str(path), scene=scene)
+        linear.append(read(path))
+        path.unlink()
+    notices: list[str] = []
+    if engine == "GLIMMER":
+        from glimmer import reports
+
+        report = reports.last()
+        notices = [*report["export"]["notices"], *report["warnings"]]
+    peak_bytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    scratch = folder / f"{engine}_seed.png"
+    display = [through_view(scene, picture, scratch) for picture in linear]
+    scratch.unlink()
+    through_view(scene, np.mean(linear, axis=0), folder / f"{engine}.png")
+    np.savez(folder / f"{engine}.npz", linear=np.array(linear), display=np.array(display))
+    told = {
+        "cpu": sum(cpu),
+        "wall": sum(wall),
+        "peak_bytes": peak_bytes,
+        "notices": notices,
+        "version": bpy.app.version_string,
+    }
+    (folder / f"{engine}.json").write_text(json.dumps(told))
+
+
+if __name__ == "__main__":
+    main(json.loads(Path(sys.argv[sys.argv.index("--") + 1 if "--" in sys.argv else 1]).read_text()))

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What tests/bench/compare.py makes of pictures whose difference is known; and the page it writes of a real file."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO
+import pytest
+
+from tests.bench.compare import (
+    BLOCK,
+    SEEDS,
+    Rendered,
+    blocks_of,
+    compare,
+    difference_picture,
+    judge,
+    png,
+    verdict_line,
+)
+
+HEIGHT, WIDTH = 3 * BLOCK + 5, 4 * BLOCK
+
+
+def noisy(seed: int, noise: float, brighter: float = 0.0) -> Rendered:
+    """A grey picture; its first block, at the bottom left, is brighter."""
+    pictures = 0.5 + noise * np.random.default_rng(seed).standard_normal((SEEDS, HEIGHT, WIDTH, 3))
+    pictures[:, :BLOCK, :BLOCK] += brighter
+    return Rendered(pictures, pictures, 1.0, 1 << 20, (), "0")
+
+
+def test_blocks_are_means_also_where_the_picture_ends() -> None:
+    picture = np.arange(HEIGHT * WIDTH * 3, dtype=np.float64).reshape(HEIGHT, WIDTH, 3)
+    blocks = blocks_of(picture)
+    assert blocks.shape == (4, 4, 3)
+    np.testing.assert_allclose(blocks[3, 1], picture[3 * BLOCK :, BLOCK : 2 * BLOCK].mean(axis=(0, 1)))
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.05, 0.5])
+def test_noise_alone_is_the_same_picture(noise: float) -> None:
+    verdict = judge(noisy(1, noise), noisy(2, noise))
+    assert verdict.apart == 0
+    assert verdict.ratio == pytest.approx(1.0, abs=0.02)
+    assert verdict_line(verdict).startswith("the same picture")
+
+
+def test_a_block_that_differs_is_found_where_it_is() -> None:
+    verdict = judge(noisy(1, 0.05), noisy(2, 0.05, brighter=0.2))
+    assert verdict.apart == 1
+    assert verdict.largest == pytest.approx(1.4, abs=0.05)
+    assert np.abs(verdict.beyond).max(axis=-1).argmax() == 0
+    picture = difference_picture(verdict, HEIGHT, WIDTH)  # top row first
+    assert picture.shape == (HEIGHT, WIDTH, 3)
+    assert picture[-1, 0, 0] > picture[-1, 0, 2]
+    np.testing.assert_allclose(picture[0, -1], 0.5, atol=0.05)
+
+
+def test_a_block_darker_than_the_tolerance_allows_differs_too() -> None:
+    cycles = noisy(1, 0.01)
+    assert judge(cycles, replace(cycles, display=cycles.display - 0.1)).apart == 16
+
+
+def test_png_is_read_back(tmp_path: Path) -> None:
+    pixels = np.random.default_rng(1).random((5, 7, 3))
+    path = tmp_path / "picture.png"
+    path.write_bytes(png(pixels))
+    read = np.asarray(OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.UINT8))
+    np.testing.assert_array_equal(read[..., :3], np.round(pixels * 255.0).astype(np.uint8))
+
+
+def test_a_file_is_compared(
+    blender: Path, library_dir: Path, repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(repository / "tests" / "blender"))
+    from hosts import environment
+
+    for name, value in environment(tmp_path / "profile", library_dir / "libglimmer.so", blender).items():
+        monkeypatch.setenv(name, value)
+    host = [str(blender), "-b", "--factory-startup", "--disable-autoexec", "--python-exit-code", "1", "--python"]
+    file = repository / "blend_scenes" / "furnace.blend"
+    line = compare(host, file, (24, 16), tmp_path / "page", "a <command>", 100.0)
+    assert line.startswith("the same picture; ratio of the means")
+    page = (tmp_path / "page" / "index.html").read_text()
+    assert "furnace.blend" in page
+    assert "a &lt;command&gt;" in page
+    for name in re.findall(r'src="([^"]+)"', page):
+        assert (tmp_path / "page" / name).read_bytes().startswith(b"\x89PNG")
