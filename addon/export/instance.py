@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stands where: the depsgraph's objects and their instances, grouped by what they show, read in bulk.
 
-A loop over `object_instances` takes 3 to 9 us an instance, a bulk read a hundredth of that; so the loop is kept for
-instancers that no bulk read understands.
+`object_instances` is what Cycles reads: it alone knows which instancers are hidden, and that a curve is shown by its
+mesh. A loop over it takes 3 to 9 us an instance, a bulk read a hundredth of that; so scenes of plain meshes, lights and
+instancers that are read in bulk go without it.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene.description import Floats
 
@@ -28,12 +30,15 @@ class Placed:
     """An evaluated object and where it stands, once or many times."""
 
     item: bpy.types.Object
+    strands: bool = False  # what is shown is the hair of its particle systems, not its surface
     matrices: list[Floats] = field(default_factory=list)  # each (4, 4) or (n, 4, 4)
     random_ids: list[int] | None = None  # Blender's, one a matrix; None: not asked for
 
     def all_matrices(self) -> Floats:
-        """(n, 4, 4)"""
-        return np.concatenate([np.asarray(m, np.float64).reshape(-1, 4, 4) for m in self.matrices])
+        """(n, 4, 4). The last row is that of a matrix of places, whatever rounding made of it."""
+        result = np.concatenate([np.asarray(m, np.float64).reshape(-1, 4, 4) for m in self.matrices])
+        result[:, 3] = (0.0, 0.0, 0.0, 1.0)
+        return result
 
     def randoms(self) -> Floats:
         """(n,) of 0 to 1: what an Object Info node knows as Random. Those of a bulk read are of our own making."""
@@ -43,6 +48,16 @@ class Placed:
             count = len(self.all_matrices())
             ids = [hash_pair(own, i) for i in range(count)]
         return np.array(ids, np.float64) / 0xFFFFFFFF
+
+
+def dimensions_left(matrices: Floats) -> NDArray[np.intp]:
+    """(n,): 3, or what a scale of 0 along some axes leaves of them."""
+    linear = matrices[:, :3, :3]
+    result = np.full(len(matrices), 3)
+    flat = np.abs(np.linalg.det(linear)) <= 1e-12 * np.linalg.norm(linear, axis=1).prod(axis=1)
+    if flat.any():
+        result[flat] = np.minimum(np.linalg.matrix_rank(linear[flat]), 2)
+    return result
 
 
 def name_hash(name: str) -> int:
@@ -75,49 +90,107 @@ def placed_objects(
     is_shown: Callable[[bpy.types.Object], bool] | None = None,
 ) -> Iterator[Placed]:
     """Everything visible. An object is valid only until the next is asked for: an instance's may be a temporary one."""
-    by_loop: set[int] = set()
+    plain = True
     bulk: dict[int, Placed] = {}
-    show_instancer = "show_instancer_for_render" if depsgraph.mode == "RENDER" else "show_instancer_for_viewport"
+    read_in_bulk: set[int] = set()
+    present: set[int] = set()
     for item in depsgraph.objects:
+        present.add(item.original.as_pointer())
         if is_shown is not None and not is_shown(item):
             continue
         if _may_have_instances(item):
             found = next((result for reader in readers if (result := reader(item, depsgraph)) is not None), None)
             if found is None:
-                by_loop.add(item.original.as_pointer())
-            else:
-                for prototype, matrices in found:
-                    bulk.setdefault(prototype.as_pointer(), Placed(prototype)).matrices.append(matrices)
-        if not item.is_instancer or getattr(item, show_instancer):
-            yield Placed(item, [np.array(item.matrix_world, np.float64)], [hash_pair(name_hash(item.name), 0)])
+                plain = False
+                continue
+            read_in_bulk.add(item.original.as_pointer())
+            for prototype, matrices in found:
+                bulk.setdefault(prototype.as_pointer(), Placed(prototype)).matrices.append(matrices)
+        elif item.type in SHOWN_BY_OTHERS:
+            plain = False
+    if plain and not _has_hidden_instancers(depsgraph, present):
+        for item in depsgraph.objects:
+            if is_shown is None or is_shown(item):
+                yield _single(item)
+    else:
+        yield from _by_loop(depsgraph, read_in_bulk, is_shown)
     yield from bulk.values()
-    if by_loop:
-        yield from _by_loop(depsgraph, by_loop)
+
+
+# Kinds that a temporary object with their mesh stands for, in object_instances alone.
+SHOWN_BY_OTHERS = {"CURVE", "SURFACE", "FONT", "META"}
+
+
+def _single(item: bpy.types.Object) -> Placed:
+    return Placed(item, False, [np.array(item.matrix_world, np.float64)], [hash_pair(name_hash(item.name), 0)])
 
 
 def _may_have_instances(item: bpy.types.Object) -> bool:
-    """`is_instancer` knows of particles, vertices and collections, not of Geometry Nodes."""
-    return item.is_instancer or any(modifier.type == "NODES" for modifier in item.modifiers)
+    """`is_instancer` knows of vertices, faces and collections, not of particles and Geometry Nodes."""
+    return (
+        item.is_instancer
+        or len(item.particle_systems) > 0
+        or any(modifier.type == "NODES" for modifier in item.modifiers)
+    )
 
 
-def _by_loop(depsgraph: bpy.types.Depsgraph, instancers: set[int]) -> Iterator[Placed]:
-    """The slow way. One mesh may be shown by a temporary object per instance, so they are grouped by their data."""
-    matrices: dict[tuple[int, int], list[Floats]] = {}
-    random_ids: dict[tuple[int, int], list[int]] = {}
+def _has_hidden_instancers(depsgraph: bpy.types.Depsgraph, present: set[int]) -> bool:
+    """Whether there may be some: the depsgraph's objects are without them, its instances have what they show."""
+    name = "show_instancer_for_render" if depsgraph.mode == "RENDER" else "show_instancer_for_viewport"
+    return any(
+        not getattr(item, name) and item.original.as_pointer() not in present and _may_have_instances(item)
+        for item in depsgraph.view_layer_eval.objects
+    )
 
-    def key(item: Any) -> tuple[int, int]:
-        data = item.data
-        return item.original.as_pointer(), 0 if data is None else data.as_pointer()
 
+def _by_loop(
+    depsgraph: bpy.types.Depsgraph,
+    left_out: set[int],
+    is_shown: Callable[[bpy.types.Object], bool] | None,
+) -> Iterator[Placed]:
+    """The slow way, but for the instances of some. One mesh may be shown by a temporary object per instance, so
+    instances are grouped by their data."""
+    groups: dict[tuple[int, int, bool], Placed] = {}
     for instance in depsgraph.object_instances:
-        if instance.is_instance and instance.parent.original.as_pointer() in instancers:
-            matrices.setdefault(key(instance.object), []).append(np.array(instance.matrix_world, np.float64))
-            random_ids.setdefault(key(instance.object), []).append(instance.random_id & 0xFFFFFFFF)
+        if not instance.is_instance:
+            item = instance.object
+            if is_shown is None or is_shown(item):
+                if instance.show_self:
+                    yield _single(item)
+                if instance.show_particles:
+                    placed = _single(item)
+                    placed.strands = True
+                    yield placed
+            continue
+        parent = instance.parent
+        if parent.original.as_pointer() in left_out or (is_shown is not None and not is_shown(parent)):
+            continue
+        matrix, random = np.array(instance.matrix_world, np.float64), instance.random_id & 0xFFFFFFFF
+        for key in _keys(instance):
+            group = groups.get(key)
+            if group is None:
+                group = groups[key] = Placed(instance.object, key[2], [], [])
+            group.matrices.append(matrix)
+            group.random_ids.append(random)  # type: ignore[union-attr]
+    if not groups:
+        return
     # The objects of the first loop are gone, so those of a second are handed out, each once.
     for instance in depsgraph.object_instances:
-        if instance.is_instance and instance.parent.original.as_pointer() in instancers:
-            found = matrices.pop(key(instance.object), None)
-            if found is not None:
-                yield Placed(instance.object, found, random_ids[key(instance.object)])
-                if not matrices:
-                    return
+        if instance.is_instance:
+            for key in _keys(instance):
+                group = groups.pop(key, None)
+                if group is not None:
+                    group.item = instance.instance_object if group.strands else instance.object
+                    yield group
+            if not groups:
+                return
+
+
+def _keys(instance: bpy.types.DepsgraphObjectInstance) -> list[tuple[int, int, bool]]:
+    """What an instance shows: its surface, its hair or both."""
+    item = instance.object
+    data = item.data
+    whose = item.original.as_pointer(), 0 if data is None else data.as_pointer()
+    return [
+        (*whose, strands) for strands, shown in ((False, instance.show_self), (True, instance.show_particles)) if shown
+    ]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,6 +87,12 @@ def export_mesh(
         slots_or_none,
         read_attributes,
     )
+
+
+def flattened(mesh: Mesh, to_world: Floats) -> Mesh:
+    """In the world, under a matrix that leaves no volume. Its faces are flat."""
+    vertices = np.asarray(mesh.vertices, np.float64) @ to_world[:3, :3].T + to_world[:3, 3]
+    return replace(mesh, vertices=vertices.astype(np.float32), normals=None)
 
 
 def _is_smooth_throughout(mesh: bpy.types.Mesh) -> bool:

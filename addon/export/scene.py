@@ -23,20 +23,21 @@ from ..scene.description import (
     Spheres,
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
-from .instance import BulkReader, Placed, placed_objects
+from .instance import BulkReader, Placed, dimensions_left, placed_objects
 from .light import export_lamp
 from .material import export_material
-from .mesh import export_mesh
+from .mesh import export_mesh, flattened
+from .points import point_cloud
 from .sphere import NotASphereError, read_sphere
+from .strands import Strands, curve_strands, particle_strands, tubes
 from .translate.image import Images
 from .world import export_world, warn_of_black_sky
 
 if TYPE_CHECKING:
     import bpy
 
-SURFACES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 # Kinds that show something in Cycles and nothing here.
-UNSUPPORTED = {"CURVES", "HAIR", "POINTCLOUD", "VOLUME", "GPENCIL", "GREASEPENCIL"}
+UNSUPPORTED = {"VOLUME", "GPENCIL", "GREASEPENCIL"}
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,11 @@ def _rgba(color: Any) -> tuple[float, float, float, float]:
     return float(color[0]), float(color[1]), float(color[2]), float(color[3])
 
 
+def _slots(item: bpy.types.Object) -> list[bpy.types.Material | None]:
+    """The materials of an object's slots, one at least."""
+    return [slot.material for slot in item.material_slots] or [None]
+
+
 class _Collector:
     def __init__(
         self, depsgraph: bpy.types.Depsgraph, version: tuple[int, ...], notices: Notices, constants_only: bool
@@ -119,15 +125,21 @@ class _Collector:
         self._depsgraph = depsgraph
         self._version = version
         self._notices = notices
-        self._material_numbers: dict[int, int] = {}
+        self._material_numbers: dict[tuple[int, bool], int] = {}
         self._override = depsgraph.view_layer_eval.material_override
         self.images = Images()
         self._meshes: dict[tuple[int, int, frozenset[str]], Mesh | None] = {}
 
     def add(self, placed: Placed) -> None:
         kind = placed.item.type
-        if kind in SURFACES:
+        if placed.strands:
+            self._add_hair(placed)
+        elif kind == "MESH":
             self._add_surface(placed)
+        elif kind == "CURVES":
+            self._add_curves(placed)
+        elif kind == "POINTCLOUD":
+            self._add_points(placed)
         elif kind == "LIGHT":
             for matrix in placed.all_matrices():
                 lamp = export_lamp(placed.item, matrix, self._version, self._notices)
@@ -136,21 +148,42 @@ class _Collector:
         elif kind in UNSUPPORTED:
             self._notices.add(place(placed.item.name), f"objects of type {kind.title()} are not supported and left out")
 
-    def _add_surface(self, placed: Placed) -> None:
-        item = placed.item
+    def _matrices(self, placed: Placed) -> Floats:
         matrices = placed.all_matrices()
         if not np.isfinite(matrices).all():
-            raise GlimmerError(f"Object '{item.name}' stands at a place that is not finite")
+            raise GlimmerError(f"Object '{placed.item.name}' stands at a place that is not finite")
+        return matrices
+
+    def _add_surface(self, placed: Placed) -> None:
+        item = placed.item
+        matrices = self._matrices(placed)
         settings = getattr(item.original, "glimmer", None)
         if settings is not None and settings.is_sphere and self._add_spheres(item, matrices):
             return
-        if item.type == "MESH" and not item.data.polygons:
+        if not item.data.polygons:
             return  # and its materials are nobody's
-        slots = [slot.material for slot in item.material_slots] or [None]
+        slots = _slots(item)
         materials = tuple(self._material(material, item.name) for material in slots)
         mesh = self._mesh(item, len(slots), self._attributes(materials))
-        if mesh is None:
-            return
+        if mesh is not None:
+            self._add_object(placed, matrices, mesh, materials)
+
+    def _add_object(self, placed: Placed, matrices: Floats, mesh: Mesh, materials: tuple[int, ...]) -> None:
+        """Those whose scale is 0 along an axis are meshes of their own: the engine's instances have an inverse."""
+        dimensions, randoms = dimensions_left(matrices), placed.randoms()
+        solid, flat = dimensions == 3, dimensions == 2
+        if flat.any():
+            self._notices.add(
+                place(placed.item.name), "is flattened by a scale of 0; it is lit like a flat face, black in Cycles"
+            )
+        for matrix, random in zip(matrices[flat], randoms[flat], strict=True):
+            self._add_placed(placed.item, np.eye(4)[None], np.array([random]), flattened(mesh, matrix), materials)
+        if solid.any():
+            self._add_placed(placed.item, matrices[solid], randoms[solid], mesh, materials)
+
+    def _add_placed(
+        self, item: bpy.types.Object, matrices: Floats, randoms: Floats, mesh: Mesh, materials: tuple[int, ...]
+    ) -> None:
         many = len(matrices) > 1
         self.objects.append(
             Object(
@@ -161,7 +194,61 @@ class _Collector:
                 instances=matrices if many else None,
                 object_index=item.pass_index,
                 color=_rgba(item.color),
-                random=placed.randoms() if many else float(placed.randoms()[0]),
+                random=randoms if many else float(randoms[0]),
+            )
+        )
+
+    def _add_hair(self, placed: Placed) -> None:
+        """Of an object's particle systems."""
+        item = placed.item
+        if item.type != "MESH" or not any(system.settings.type == "HAIR" for system in item.particle_systems):
+            return
+        slots, is_final = _slots(item), self._depsgraph.mode == "RENDER"
+        numbers = [self._material(material, item.name) for material in slots]
+        for strands in particle_strands(item, is_final, self._attributes(tuple(numbers))):
+            material = numbers[min(strands.slot, len(numbers) - 1)]
+            self._add_tubes(placed, self._matrices(placed), strands, material)
+
+    def _add_curves(self, placed: Placed) -> None:
+        strands = curve_strands(placed.item.data)
+        if strands is not None:
+            material = self._material(_slots(placed.item)[0], placed.item.name)
+            self._add_tubes(placed, self._matrices(placed), strands, material)
+
+    def _add_tubes(self, placed: Placed, matrices: Floats, strands: Strands, material: int) -> None:
+        name = placed.item.name
+        found = tubes(name, strands)
+        if found.kept < 1.0:
+            self._notices.add(
+                place(name), f"too much hair: {found.kept:.1%} of its strands are rendered, so much the wider"
+            )
+        self._add_object(placed, matrices, found.mesh, (material,))
+
+    def _add_points(self, placed: Placed) -> None:
+        """The points of a cloud are spheres."""
+        item, cloud = placed.item, placed.item.data
+        if not len(cloud.points):
+            return
+        points, radii = point_cloud(cloud)
+        matrices = self._matrices(placed)
+        material = self._material(_slots(item)[0], item.name)
+        scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
+        if (np.ptp(scales, axis=1) > 1e-3 * scales.max(axis=1)).any():
+            self._notices.add(place(item.name), "its points are scaled unevenly; they are rendered as round spheres")
+        if self.materials[material].program is not None:
+            self._notices.add(
+                place(item.name),
+                "textures on the points of clouds are not supported; a constant is used in their place",
+            )
+            material = self._material(_slots(item)[0], item.name, constants_only=True)
+        centers = np.einsum("mij,nj->mni", matrices[:, :3, :3], points) + matrices[:, None, :3, 3]
+        self.spheres.append(
+            Spheres(
+                name=item.name,
+                centers=centers.reshape(-1, 3),
+                radii=(scales.mean(axis=1)[:, None] * radii).reshape(-1),
+                material=material,
+                object_index=item.pass_index,
             )
         )
 
@@ -214,12 +301,16 @@ class _Collector:
                 item.to_mesh_clear()
         return self._meshes[key]
 
-    def _material(self, material: bpy.types.Material | None, object_name: str) -> int:
+    def _material(
+        self, material: bpy.types.Material | None, object_name: str, constants_only: bool | None = None
+    ) -> int:
+        """constants_only: not as the export has it for all."""
+        constants_only = self._constants_only if constants_only is None else constants_only
         material = self._override or material
-        key = 0 if material is None else material.original.as_pointer()
+        key = (0 if material is None else material.original.as_pointer(), constants_only)
         if key not in self._material_numbers:
             self._material_numbers[key] = len(self.materials)
             self.materials.append(
-                export_material(material, object_name, self._version, self._notices, self.images, self._constants_only)
+                export_material(material, object_name, self._version, self._notices, self.images, constants_only)
             )
         return self._material_numbers[key]

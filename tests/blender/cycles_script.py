@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders small scenes by Cycles and Glimmer in turn, in one process: cycles_script.py FOLDER.
 
-Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3); and edges.npz, of an edge:
-WIDTH.ENGINE by filter width, each (height, width, 3).
+Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3); hair.npz: the same of strands,
+without NAME; and edges.npz, of an edge: WIDTH.ENGINE by filter width, each (height, width, 3).
 """
 
+import itertools
 import math
 import sys
 from collections.abc import Callable
@@ -126,6 +127,116 @@ def instances() -> None:
         place.objects.link(empty)
 
 
+def lit_floor() -> Any:
+    scene = inside.empty_scene((0.1, 0.1, 0.1))
+    floor()
+    inside.lamp("AREA", (0.0, -1.0, 4.0), energy=100.0, shape="RECTANGLE", size=1.0, size_y=0.5)
+    return scene
+
+
+def faceted_ball(name: str, radius: float, location: tuple[float, float, float]) -> Any:
+    ball = inside.ball(name, inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE), location, segments=16)
+    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
+    ball.scale = (radius,) * 3
+    return ball
+
+
+def hidden_instancers() -> None:
+    """Vertices, faces and particles that show others and are hidden themselves; a parent that is off by rounding."""
+    lit_floor()
+    for number, kind in enumerate(("VERTS", "FACES")):
+        instancer = faceted_ball(kind, 0.8, (2.0 * number - 2.0, 0.0, 1.0))
+        shown = faceted_ball("Shown", 0.15, (0.0, 0.0, 0.0))
+        shown.parent, instancer.instance_type, instancer.show_instancer_for_render = instancer, kind, False
+    emitter = inside.plane("Emitter", 0.7, inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
+    emitter.location = (2.0, 0.0, 0.8)
+    emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    settings = emitter.particle_systems[0].settings
+    settings.type, settings.count, settings.render_type, settings.particle_size = "HAIR", 20, "OBJECT", 0.5
+    settings.instance_object, emitter.show_instancer_for_render = faceted_ball("Particle", 0.3, (5.0, 9.0, 0.0)), False
+    rounded = faceted_ball("Rounded", 0.5, (0.0, 2.0, 0.5))
+    rounded.parent = bpy.data.objects.new("Parent", None)
+    bpy.context.scene.collection.objects.link(rounded.parent)
+    inverse = rounded.matrix_parent_inverse.copy()
+    inverse[3][3] = 0.99999994
+    rounded.matrix_parent_inverse = inverse
+
+
+def curves_and_texts() -> None:
+    """What Blender shows by a mesh that is none of its own: curves that share their data and differ in modifiers and
+    material, a metaball, and a shining text in an instanced collection."""
+    scene = lit_floor()
+    data = bpy.data.curves.new("Curve", "CURVE")
+    spline = data.splines.new("POLY")
+    spline.points.add(1)
+    spline.points[0].co, spline.points[1].co = (0.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.5, 1.0)
+    data.dimensions, data.bevel_depth, data.bevel_resolution = "3D", 0.2, 0
+    data.materials.append(inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
+    for number in range(2):
+        item = bpy.data.objects.new("Curve", data)
+        item.location = (2.5 * number - 2.5, 0.0, 0.3)
+        scene.collection.objects.link(item)
+        array = item.modifiers.new("Array", "ARRAY")
+        array.count, array.use_relative_offset, array.use_constant_offset = 1 + 2 * number, False, True
+        array.constant_offset_displace = (0.4, 0.0, 0.4)
+        if number:
+            item.material_slots[0].link = "OBJECT"
+            item.material_slots[0].material = inside.material("ShaderNodeBsdfDiffuse", Color=(0.1, 0.2, 0.9, 1.0))
+    meta = bpy.data.metaballs.new("Meta")
+    meta.elements.new().co = (0.0, 2.0, 1.0)
+    scene.collection.objects.link(bpy.data.objects.new("Meta", meta))
+    text = bpy.data.curves.new("Text", "FONT")
+    text.body, text.extrude = "il", 0.1
+    text.materials.append(inside.material("ShaderNodeEmission", Strength=2.0))
+    inner = bpy.data.collections.new("Texts")
+    inner.objects.link(bpy.data.objects.new("Text", text))
+    empty = bpy.data.objects.new("Empty", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", inner
+    empty.location, empty.rotation_euler, empty.scale = (1.5, -0.5, 0.3), (1.2, 0.0, 0.0), (2.0, 2.0, 2.0)
+    scene.collection.objects.link(empty)
+
+
+def points() -> None:
+    """A point cloud, from Geometry Nodes of an object that is hidden itself."""
+    lit_floor()
+    item = faceted_ball("Cloud", 1.0, (0.0, 0.0, 1.2))
+    tree = bpy.data.node_groups.new("Points", "GeometryNodeTree")
+    for direction in ("INPUT", "OUTPUT"):
+        if hasattr(tree, "interface"):
+            tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+        else:
+            getattr(tree, f"{direction.lower()}s").new("NodeSocketGeometry", "Geometry")
+    kinds = ("NodeGroupInput", "GeometryNodeMeshToPoints", "GeometryNodeSetMaterial", "NodeGroupOutput")
+    nodes = [tree.nodes.new(kind) for kind in kinds]
+    for before, after in itertools.pairwise(nodes):
+        tree.links.new(before.outputs[0], after.inputs[0])
+    nodes[1].inputs["Radius"].default_value = 0.15
+    nodes[2].inputs["Material"].default_value = item.active_material
+    item.modifiers.new("Points", "NODES").node_group = tree
+    item.show_instancer_for_render = False
+
+
+def hair() -> None:
+    """Strands of a hidden emitter, with children, in an instanced collection, of the emitter's second material."""
+    scene = lit_floor()
+    emitter = inside.plane("Emitter", 1.0, inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
+    emitter.data.materials.append(inside.material("ShaderNodeEmission", Color=OCHRE, Strength=0.5))
+    emitter.modifiers.new("Hair", "PARTICLE_SYSTEM")
+    settings = emitter.particle_systems[0].settings
+    settings.type, settings.count, settings.hair_length, settings.material = "HAIR", 40, 1.5, 2
+    settings.root_radius, settings.tip_radius, settings.shape, settings.child_type = 8.0, 2.0, 0.3, "SIMPLE"
+    settings.rendered_child_count = 3
+    emitter.show_instancer_for_render = False
+    inner = bpy.data.collections.new("Hair")
+    scene.collection.objects.unlink(emitter)
+    inner.objects.link(emitter)
+    for x in (-1.2, 1.2):
+        empty = bpy.data.objects.new("Empty", None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", inner
+        empty.location, empty.rotation_euler, empty.scale = (x, 0.0, 0.0), (0.0, 0.3, x), (0.8, 0.8, 0.8)
+        scene.collection.objects.link(empty)
+
+
 def mixed() -> None:
     under_lamps(inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
     tree = bpy.data.objects["Ball"].active_material.node_tree
@@ -205,6 +316,9 @@ SCENES: dict[str, Callable[[], Any]] = {
     "camera": camera,
     "orthographic": orthographic,
     "instances": instances,
+    "hidden instancers": hidden_instancers,
+    "curves and texts": curves_and_texts,
+    "points": points,
     "emissive mesh": emissive_mesh,
     "diffuse": shader("ShaderNodeBsdfDiffuse", Color=OCHRE),
     "glossy": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.5),
@@ -259,17 +373,22 @@ def picture(engine: str, seed: int) -> Any:
     return pixels.reshape(HEIGHT, WIDTH, 4)[..., :3]
 
 
-inside.use_format("OPEN_EXR")
-pictures: dict[str, Any] = {}
-for name, build in SCENES.items():
+def pictures_of(build: Callable[[], Any]) -> dict[str, Any]:
+    """By engine: (seeds, height, width, 3)."""
     build()
     current = bpy.context.scene
     current.render.resolution_x, current.render.resolution_y = WIDTH, HEIGHT
     current.glimmer.samples, current.glimmer.filter = SAMPLES, "BOX"
     set_up_cycles(current, samples=SAMPLES)
-    for engine in ("CYCLES", "GLIMMER"):
-        pictures[f"{name}.{engine}"] = np.array([picture(engine, seed) for seed in range(SEEDS)])
+    return {engine: np.array([picture(engine, seed) for seed in range(SEEDS)]) for engine in ("CYCLES", "GLIMMER")}
+
+
+inside.use_format("OPEN_EXR")
+pictures: dict[str, Any] = {}
+for name, build in SCENES.items():
+    pictures |= {f"{name}.{engine}": found for engine, found in pictures_of(build).items()}
 np.savez(OUT / "pictures.npz", **pictures)
+np.savez(OUT / "hair.npz", **pictures_of(hair))
 
 edges: dict[str, Any] = {}
 for filter_width in (1.5, 2.5):

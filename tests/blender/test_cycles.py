@@ -17,6 +17,7 @@ LEVEL = 1e-3  # of a false alarm in the whole module on a host
 BLOCKS = (2, 3)  # down and across
 # Both sum hundreds of float32 values a pixel in another order; where nothing else is random this is left.
 ROUNDING = 2e-6
+HAIR = 0.02  # of a block's light, by which tubes may differ from Cycles' curves
 
 
 @pytest.fixture(scope="module")
@@ -57,6 +58,13 @@ def test_both_engines_show_the_same_light(pictures: dict[str, NDArray[np.float32
             ratio = float(ours.mean() / cycles.mean())
             failures.append(f"{name}: p = {p.min():.2g} in its worst block, mean ratio {ratio:.5f}")
     assert not failures, "\n".join(failures)
+
+
+def test_strands_of_hair_are_as_long_as_thick_and_as_bright_as_in_cycles(folder: Path) -> None:
+    """Tubes of six sides stand for ribbons with a round normal: nearly the same light, not the same."""
+    arrays = np.load(folder / "hair.npz")
+    cycles, ours = (block_means(arrays[engine]).mean(axis=0) for engine in ("CYCLES", "GLIMMER"))
+    np.testing.assert_allclose(ours, cycles, rtol=HAIR)
 
 
 def blackman_harris_cdf(x: NDArray[np.float64]) -> NDArray[np.float64]:
