@@ -30,6 +30,12 @@ FEW = 0.05
 KNOWN_IN_NEWEST = ("image premultiplied", "image floats with alpha")
 
 
+# What lies between the oldest Blender and the newest is slow to try and seldom fails alone.
+oldest_and_newest = pytest.mark.parametrize(
+    "host", ["blender", pytest.param("bpy", marks=pytest.mark.full), "newest"], indirect=True, scope="session"
+)
+
+
 @pytest.fixture(scope="module", params=["noises", "voronois", "patterns", "numbers", "colors", "images", "surfaces"])
 def found(request: pytest.FixtureRequest, host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     path = tmp_path_factory.mktemp(request.param) / "facts.json"
@@ -38,6 +44,7 @@ def found(request: pytest.FixtureRequest, host: Host, tmp_path_factory: pytest.T
     return result
 
 
+@oldest_and_newest
 def test_nodes_show_what_they_show_in_cycles(found: dict[str, Any], host: Host) -> None:
     assert len(found["cases"]) > 20
     wrong = {}
@@ -49,6 +56,7 @@ def test_nodes_show_what_they_show_in_cycles(found: dict[str, Any], host: Host) 
     assert not wrong, json.dumps(wrong, indent=1)
 
 
+@oldest_and_newest
 def test_nothing_is_told_to_be_left_out(found: dict[str, Any]) -> None:
     assert found["report"]["export"]["notices"] == []
     assert "no textures: no shader programs" not in found["report"]["left_out"]

@@ -90,7 +90,7 @@ def test_light_vertices_serve_where_limits_leave_them_room(limits: dict[str, int
         (moons_in_fog().sphere((0, -4, 4), 1, d.Glass(1.5)), "inside glass"),
         (Builder(camera((0, -4, 4), (0, 8, 1), 60), 32, 24, medium=d.Medium(grey(0.1), grey(0.1), 0.95)), "anisotropy"),
         (
-            Builder(camera((0, -4, 4), (0, 8, 1), 60), 32, 24, medium=d.Medium(grey(0), grey(20))).sphere(
+            Builder(camera((0, -4, 4), (0, 8, 1), 60), 4, 3, medium=d.Medium(grey(0), grey(20))).sphere(
                 (0, 8, 1), 9, d.Light(WHITE)
             ),
             "dense",
