@@ -51,8 +51,6 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
         )
     if render.film_transparent:
         notices.add("", "Film > Transparent is not supported; the background is opaque")
-    if render.use_motion_blur:
-        notices.add("", "motion blur is not supported; everything stands still")
     if render.use_multiview:
         notices.add("", "stereoscopy is not supported; every view is the camera's own")
     size = full_size(render)

@@ -8,7 +8,7 @@ instancers that are read in bulk go without it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -33,12 +33,22 @@ class Placed:
     strands: bool = False  # what is shown is the hair of its particle systems, not its surface
     matrices: list[Floats] = field(default_factory=list)  # each (4, 4) or (n, 4, 4)
     random_ids: list[int] | None = None  # Blender's, one a matrix; None: not asked for
+    # One a member of `matrices`: the same object, or instances by the same object, at all moments.
+    ids: list[Hashable] = field(default_factory=list)
+    instancer: bpy.types.Object | None = None  # the last of those that it is an instance by
 
     def all_matrices(self) -> Floats:
         """(n, 4, 4). The last row is that of a matrix of places, whatever rounding made of it."""
         result = np.concatenate([np.asarray(m, np.float64).reshape(-1, 4, 4) for m in self.matrices])
         result[:, 3] = (0.0, 0.0, 0.0, 1.0)
         return result
+
+    def by_id(self) -> Iterator[tuple[Hashable, Floats]]:
+        """Each id and its (n, 4, 4)."""
+        for ident, matrices in zip(self.ids, self.matrices, strict=True):
+            result = np.array(matrices, np.float64).reshape(-1, 4, 4)
+            result[:, 3] = (0.0, 0.0, 0.0, 1.0)
+            yield ident, result
 
     def randoms(self) -> Floats:
         """(n,) of 0 to 1: what an Object Info node knows as Random. Those of a bulk read are of our own making."""
@@ -105,7 +115,10 @@ def placed_objects(
                 continue
             read_in_bulk.add(item.original.as_pointer())
             for prototype, matrices in found:
-                bulk.setdefault(prototype.as_pointer(), Placed(prototype)).matrices.append(matrices)
+                placed = bulk.setdefault(prototype.as_pointer(), Placed(prototype))
+                placed.matrices.append(matrices)
+                placed.ids.append(("bulk", item.original.as_pointer(), prototype.original.as_pointer()))
+                placed.instancer = item.original
         elif item.type in SHOWN_BY_OTHERS:
             plain = False
     if plain and not _has_hidden_instancers(depsgraph, present):
@@ -122,7 +135,13 @@ SHOWN_BY_OTHERS = {"CURVE", "SURFACE", "FONT", "META"}
 
 
 def _single(item: bpy.types.Object) -> Placed:
-    return Placed(item, False, [np.array(item.matrix_world, np.float64)], [hash_pair(name_hash(item.name), 0)])
+    return Placed(
+        item,
+        False,
+        [np.array(item.matrix_world, np.float64)],
+        [hash_pair(name_hash(item.name), 0)],
+        [("object", item.original.as_pointer())],
+    )
 
 
 def _may_have_instances(item: bpy.types.Object) -> bool:
@@ -166,11 +185,14 @@ def _by_loop(
         if parent.original.as_pointer() in left_out or (is_shown is not None and not is_shown(parent)):
             continue
         matrix, random = np.array(instance.matrix_world, np.float64), instance.random_id & 0xFFFFFFFF
+        ident = (parent.original.as_pointer(), instance.object.original.as_pointer(), tuple(instance.persistent_id))
         for key in _keys(instance):
             group = groups.get(key)
             if group is None:
                 group = groups[key] = Placed(instance.object, key[2], [], [])
             group.matrices.append(matrix)
+            group.ids.append(ident)
+            group.instancer = parent.original
             group.random_ids.append(random)  # type: ignore[union-attr]
     if not groups:
         return

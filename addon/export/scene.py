@@ -4,18 +4,23 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable, Iterator
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..scene.description import (
+    BLACK,
+    Add,
     Camera,
     Film,
     Floats,
     Lamp,
+    Light,
+    Material,
     Mesh,
+    Mix,
     NamedMaterial,
     Object,
     RenderSettings,
@@ -27,6 +32,18 @@ from .instance import BulkReader, Placed, dimensions_left, placed_objects
 from .light import export_lamp
 from .material import export_material
 from .mesh import export_mesh, flattened
+from .motion import (
+    Motion,
+    Recording,
+    SetFrame,
+    cycles_setting,
+    is_still,
+    motion_steps,
+    moves_as_one,
+    read_shutter,
+    record,
+    smooth_motion,
+)
 from .points import point_cloud
 from .sphere import NotASphereError, read_sphere
 from .strands import Strands, curve_strands, particle_strands, tubes
@@ -38,6 +55,9 @@ if TYPE_CHECKING:
 
 # Kinds that show something in Cycles and nothing here.
 UNSUPPORTED = {"VOLUME", "GPENCIL", "GREASEPENCIL"}
+
+
+HELD_STILL = "which is not supported; it stands where it is in the middle"
 
 
 @dataclass(frozen=True)
@@ -64,34 +84,97 @@ def export_scene(
     readers: tuple[BulkReader, ...] = (),
     is_shown: Callable[[bpy.types.Object], bool] | None = None,
     constants_only: bool = False,
+    set_frame: SetFrame | None = None,
 ) -> Exported:
     """Raises GlimmerError when no picture can be made of the scene.
 
     view: of the evaluated scene. version: Blender's. readers: see BulkReader. is_shown: of an evaluated object, for
     what the depsgraph does not know (a local view). constants_only: materials do not vary, as in a scene file.
+    set_frame: evaluates the depsgraph at another moment; without it nothing is blurred by motion.
     """
     start = time.perf_counter()
     notices = Notices()
-    scene = depsgraph.scene_eval
-    seen = view(scene, notices)
-    collector = _Collector(depsgraph, version, notices, constants_only)
-    for placed in placed_objects(depsgraph, readers, is_shown):
-        collector.add(placed)
-    environment, medium = export_world(scene.world, notices, collector.images, constants_only)
-    lights = tuple(collector.lights)
-    warn_of_black_sky(scene.world, environment, lights, medium, notices)
-    description = SceneDescription(
-        film=seen.film,
-        camera=seen.camera,
-        materials=tuple(collector.materials),
-        objects=tuple(collector.objects),
-        spheres=tuple(collector.spheres),
-        lights=lights,
-        environment=environment,
-        medium=medium,
-        settings=seen.settings,
-    )
+    source = _Source(depsgraph, view, version, readers, is_shown, constants_only)
+    is_blurred = set_frame is not None and depsgraph.view_layer_eval.use_motion_blur
+    shutter = read_shutter(depsgraph.scene_eval, notices) if is_blurred else None
+    if shutter is None or set_frame is None:
+        description = source.describe(notices)
+    else:
+        now = depsgraph.scene_eval.frame_current, depsgraph.scene_eval.frame_subframe
+        try:
+            description = source.describe(notices, record(shutter, source.most_steps(), set_frame, source.look))
+        finally:
+            set_frame(*now)
     return Exported(description, tuple(notices.items), time.perf_counter() - start, _size(description))
+
+
+@dataclass(frozen=True)
+class _Source:
+    """What export_scene() is given; everything is read as it is at the moment."""
+
+    depsgraph: bpy.types.Depsgraph
+    view: Callable[[bpy.types.Scene, Notices], View]
+    version: tuple[int, ...]
+    readers: tuple[BulkReader, ...]
+    is_shown: Callable[[bpy.types.Object], bool] | None
+    constants_only: bool
+
+    def placed(self) -> Iterator[Placed]:
+        return placed_objects(self.depsgraph, self.readers, self.is_shown)
+
+    def look(self) -> tuple[dict[Hashable, Floats], Camera]:
+        """Where everything and the camera stand."""
+        places = {ident: matrices for placed in self.placed() for ident, matrices in placed.by_id()}
+        return places, self.view(self.depsgraph.scene_eval, Notices()).camera
+
+    def most_steps(self) -> int:
+        """The intervals of the motion that is asked for the finest; all others are powers of 2 too."""
+        camera = self.depsgraph.scene_eval.camera
+        of_camera = 0 if camera is None else motion_steps(camera)
+        return max([2, of_camera, *(motion_steps(placed.item, placed.instancer) for placed in self.placed())])
+
+    def describe(self, notices: Notices, recording: Recording | None = None) -> SceneDescription:
+        scene = self.depsgraph.scene_eval
+        seen = self.view(scene, notices)
+        camera = seen.camera
+        if recording is not None:
+            camera = _moving_camera(camera, scene.camera, recording, notices)
+        collector = _Collector(self.depsgraph, self.version, notices, self.constants_only, recording)
+        for placed in self.placed():
+            collector.add(placed)
+        environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
+        lights = tuple(collector.lights)
+        warn_of_black_sky(scene.world, environment, lights, medium, notices)
+        return SceneDescription(
+            film=seen.film,
+            camera=camera,
+            materials=tuple(collector.materials),
+            objects=tuple(collector.objects),
+            spheres=tuple(collector.spheres),
+            lights=lights,
+            environment=environment,
+            medium=medium,
+            settings=seen.settings,
+        )
+
+
+def _moving_camera(camera: Camera, item: bpy.types.Object | None, recording: Recording, notices: Notices) -> Camera:
+    steps = 2 if item is None else motion_steps(item)
+    if steps == 0:
+        return camera
+    seen = recording.cameras_of(steps)
+    if any(c.projection != camera.projection for c in seen):
+        notices.add(
+            "" if item is None else place(item.name),
+            "the camera's lens changes while the shutter is open; it is that of the middle all the time",
+        )
+    matrices = np.array([c.to_world for c in seen])
+    if is_still(matrices):
+        return camera
+    notices.add(
+        "" if item is None else place(item.name), f"a camera that moves while the shutter is open, {HELD_STILL}"
+    )
+    return camera
 
 
 def _size(scene: SceneDescription) -> int:
@@ -102,6 +185,13 @@ def _size(scene: SceneDescription) -> int:
     for spheres in scene.spheres:
         arrays += [spheres.centers, spheres.radii]
     return sum(array.nbytes for array in arrays if array is not None)
+
+
+def shines(material: Material) -> bool:
+    """Or may, for all that is known of its programs."""
+    if isinstance(material, Light) or getattr(material, "emission", BLACK) != BLACK:
+        return True
+    return isinstance(material, (Mix, Add)) and (shines(material.a) or shines(material.b))
 
 
 def _rgba(color: Any) -> tuple[float, float, float, float]:
@@ -115,8 +205,14 @@ def _slots(item: bpy.types.Object) -> list[bpy.types.Material | None]:
 
 class _Collector:
     def __init__(
-        self, depsgraph: bpy.types.Depsgraph, version: tuple[int, ...], notices: Notices, constants_only: bool
+        self,
+        depsgraph: bpy.types.Depsgraph,
+        version: tuple[int, ...],
+        notices: Notices,
+        constants_only: bool,
+        recording: Recording | None,
     ) -> None:
+        self._recording = recording
         self._constants_only = constants_only
         self.objects: list[Object] = []
         self.spheres: list[Spheres] = []
@@ -141,6 +237,8 @@ class _Collector:
         elif kind == "POINTCLOUD":
             self._add_points(placed)
         elif kind == "LIGHT":
+            if self._motion(placed) is not None:
+                self._notices.add(place(placed.item.name), f"a lamp that moves while the shutter is open, {HELD_STILL}")
             for matrix in placed.all_matrices():
                 lamp = export_lamp(placed.item, matrix, self._version, self._notices)
                 if lamp is not None:
@@ -158,7 +256,7 @@ class _Collector:
         item = placed.item
         matrices = self._matrices(placed)
         settings = getattr(item.original, "glimmer", None)
-        if settings is not None and settings.is_sphere and self._add_spheres(item, matrices):
+        if settings is not None and settings.is_sphere and self._add_spheres(placed, matrices):
             return
         if not item.data.polygons:
             return  # and its materials are nobody's
@@ -176,6 +274,18 @@ class _Collector:
             self._notices.add(
                 place(placed.item.name), "is flattened by a scale of 0; it is lit like a flat face, black in Cycles"
             )
+        self._note_deformation(placed.item)
+        motion = self._motion(placed)
+        if motion is not None and any(shines(self.materials[number].material) for number in materials):
+            self._notices.add(place(placed.item.name), f"shines and moves while the shutter is open, {HELD_STILL}")
+            motion = None
+        if motion is not None:
+            moving = motion.moving & solid
+            if moving.sum() < motion.moving.sum():
+                self._notices.add(place(placed.item.name), f"is flat and moves while the shutter is open, {HELD_STILL}")
+            part = self._part(placed.item, mesh, materials)
+            self._add_moving(part, matrices[moving], randoms[moving], motion.steps[:, solid[motion.moving]])
+            solid &= ~moving
         for matrix, random in zip(matrices[flat], randoms[flat], strict=True):
             self._add_placed(placed.item, np.eye(4)[None], np.array([random]), flattened(mesh, matrix), materials)
         if solid.any():
@@ -184,19 +294,53 @@ class _Collector:
     def _add_placed(
         self, item: bpy.types.Object, matrices: Floats, randoms: Floats, mesh: Mesh, materials: tuple[int, ...]
     ) -> None:
-        many = len(matrices) > 1
-        self.objects.append(
-            Object(
-                name=item.name,
-                mesh=mesh,
-                materials=materials,
-                to_world=np.eye(4) if many else matrices[0],
-                instances=matrices if many else None,
-                object_index=item.pass_index,
-                color=_rgba(item.color),
-                random=randoms if many else float(randoms[0]),
-            )
+        part = self._part(item, mesh, materials)
+        if len(matrices) > 1:
+            self.objects.append(replace(part, instances=matrices, random=randoms))
+        else:
+            self.objects.append(replace(part, to_world=matrices[0], random=float(randoms[0])))
+
+    def _part(self, item: bpy.types.Object, mesh: Mesh, materials: tuple[int, ...]) -> Object:
+        """Without a place."""
+        return Object(
+            name=item.name, mesh=mesh, materials=materials, object_index=item.pass_index, color=_rgba(item.color)
         )
+
+    def _add_moving(self, part: Object, middle: Floats, randoms: Floats, steps: Floats) -> None:
+        """middle: (n, 4, 4), steps: (steps, n, 4, 4). Each becomes an object of its own, unless all move as one."""
+        assert self._recording is not None
+        if len(middle) > 1 and (as_one := moves_as_one(steps, middle)) is not None:
+            motion = smooth_motion(as_one[:, None], self._recording.shutter)[:, 0]
+            self.objects.append(replace(part, instances=middle, motion=motion, random=randoms))
+            return
+        smooth = smooth_motion(steps, self._recording.shutter)
+        for i, random in enumerate(randoms):
+            self.objects.append(replace(part, motion=smooth[:, i], random=float(random)))
+
+    def _motion(self, placed: Placed) -> Motion | None:
+        """None where nothing moves."""
+        if self._recording is None:
+            return None
+        motion, is_always_there = self._recording.motion_of(placed)
+        if not is_always_there:
+            self._notices.add(
+                place(placed.item.name),
+                "appears or vanishes while the shutter is open; it is there all the time, and still",
+            )
+        return motion
+
+    def _note_deformation(self, item: bpy.types.Object) -> None:
+        """Whether a modifier or a shape key may change the mesh while the shutter is open, as Cycles asks."""
+        if (
+            self._recording is not None
+            and motion_steps(item)
+            and cycles_setting(item, "use_deform_motion", True)
+            and item.original.is_deform_modified(self._depsgraph.scene, "RENDER")
+        ):
+            self._notices.add(
+                place(item.name),
+                "may change its shape while the shutter is open; it has that of the middle all the time",
+            )
 
     def _add_hair(self, placed: Placed) -> None:
         """Of an object's particle systems."""
@@ -229,6 +373,8 @@ class _Collector:
         item, cloud = placed.item, placed.item.data
         if not len(cloud.points):
             return
+        if self._motion(placed) is not None:
+            self._notices.add(place(item.name), f"points that move while the shutter is open, {HELD_STILL}")
         points, radii = point_cloud(cloud)
         matrices = self._matrices(placed)
         material = self._material(_slots(item)[0], item.name)
@@ -252,8 +398,9 @@ class _Collector:
             )
         )
 
-    def _add_spheres(self, item: bpy.types.Object, matrices: Floats) -> bool:
+    def _add_spheres(self, placed: Placed, matrices: Floats) -> bool:
         """False, and a notice, for what is marked as a sphere and is none."""
+        item = placed.item
         try:
             sphere = read_sphere(item)
             if sphere is None:
@@ -272,6 +419,15 @@ class _Collector:
                 "is marked as an analytic sphere, but its material varies; rendered as the mesh that it is",
             )
             return False
+        if self._motion(placed) is not None:
+            if not shines(self.materials[self._material(material, item.name)].material):
+                self._notices.add(
+                    place(item.name),
+                    "is marked as an analytic sphere, but moves while the shutter is open; rendered as the mesh that it"
+                    " is",
+                )
+                return False
+            self._notices.add(place(item.name), f"shines and moves while the shutter is open, {HELD_STILL}")
         self.spheres.append(
             Spheres(
                 name=item.name,
