@@ -223,7 +223,7 @@ class _Collector:
         self._notices = notices
         self._material_numbers: dict[tuple[int, bool], int] = {}
         self._override = depsgraph.view_layer_eval.material_override
-        self.images = Images()
+        self.images = Images(depsgraph.scene_eval.frame_current)
         self._meshes: dict[tuple[int, int, frozenset[str]], Mesh | None] = {}
 
     def add(self, placed: Placed) -> None:

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Nodes and their options, as functions that build them in a tree and give the socket to show."""
 
+import tempfile
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -54,6 +57,11 @@ def moved(tree: Any) -> Any:
 
 def along(tree: Any, axis: int = 0) -> Any:
     return make(tree, "ShaderNodeSeparateXYZ", axis, inputs={0: place(tree)})
+
+
+def nanometres(tree: Any) -> Any:
+    inputs = Values({0: along(tree), 1: 160.0, 2: 580.0})
+    return make(tree, "ShaderNodeMath", inputs=inputs, operation="MULTIPLY_ADD")
 
 
 def magic(tree: Any) -> Any:
@@ -246,6 +254,7 @@ def colors() -> Iterator[Case]:
         ("gamma", "ShaderNodeGamma", {0: magic, 1: 2.2}),
         ("invert", "ShaderNodeInvert", {0: 0.8, 1: magic}),
         ("grey", "ShaderNodeRGBToBW", {0: magic}),
+        ("wavelength", "ShaderNodeWavelength", {0: nanometres}),
         ("a colour as a number", "ShaderNodeMath", {0: magic, 1: 0.0}),
         ("a vector as a number", "ShaderNodeMath", {0: place, 1: 0.0}),
         ("normal", "ShaderNodeNormal", {0: place}),
@@ -360,13 +369,52 @@ def images() -> Iterator[Case]:
             return make(tree, "ShaderNodeTexEnvironment", inputs={"Vector": place(tree)}, **settings)
 
         yield f"environment {projection}", environment
+    yield from files()
     yield "image by the UV map", node(kind, image=made["bytes"])
+
+
+def files() -> Iterator[Case]:
+    """Images of several files: tiles, of which one is missing, and frames."""
+    folder = Path(tempfile.mkdtemp())
+    for number in (1, 2, 3, 1001, 1002):
+        image = bpy.data.images.new(str(number), 3, 2)
+        image.pixels.foreach_set(np.random.default_rng(number).random(24).astype(np.float32))
+        image.filepath_raw, image.file_format = str(folder / f"part.{number:04d}.png"), "PNG"
+        image.save()
+    tiles = bpy.data.images.load(str(folder / "part.1001.png"))
+    tiles.source, tiles.filepath = "TILED", str(folder / "part.<UDIM>.png")
+    tiles.tiles.new(1002)
+    frames = bpy.data.images.load(str(folder / "part.0001.png"))
+    frames.source = "SEQUENCE"
+
+    def tiled(tree: Any) -> Any:
+        return make(tree, "ShaderNodeTexImage", inputs={"Vector": moved(tree)}, image=tiles, interpolation="Closest")
+
+    def sequence(tree: Any, start: int, cyclic: bool) -> Any:
+        socket = make(tree, "ShaderNodeTexImage", inputs={"Vector": moved(tree)}, image=frames)
+        user = socket.node.image_user
+        user.frame_start, user.frame_offset, user.frame_duration, user.use_cyclic = start, 0, 3, cyclic
+        user.use_auto_refresh = True
+        return socket
+
+    yield "image of tiles Closest", tiled
+    for start, cyclic in ((1, False), (0, False), (-2, False), (-3, True)):
+        yield f"image of frames {start} {cyclic}", partial(sequence, start=start, cyclic=cyclic)
 
 
 def surfaces() -> Iterator[Case]:
     for out in ("Generated", "Normal", "UV", "Object", "Camera", "Window", "Reflection"):
         yield f"coordinates {out}", node("ShaderNodeTexCoord", out)
-    for out in ("Position", "Normal", "True Normal", "Incoming", "Parametric", "Backfacing", "Tangent"):
+    for out in (
+        "Position",
+        "Normal",
+        "True Normal",
+        "Incoming",
+        "Parametric",
+        "Backfacing",
+        "Tangent",
+        "Random Per Island",
+    ):
         yield f"geometry {out}", node("ShaderNodeNewGeometry", out)
     for out in ("Location", "Color", "Alpha", "Object Index", "Material Index", "Random"):
         yield f"object {out}", node("ShaderNodeObjectInfo", out)
@@ -404,6 +452,29 @@ def surfaces() -> Iterator[Case]:
             return make(tree, "ShaderNodeBump", inputs=inputs, invert=invert)
 
         yield f"bump {invert}", bump
+    yield from displacements()
+
+
+def displacements() -> Iterator[Case]:
+    """Displacement, of which emission sees the normal."""
+    for kind, space in (
+        ("Displacement", "OBJECT"),
+        ("Displacement", "WORLD"),
+        ("VectorDisplacement", "TANGENT"),
+        ("VectorDisplacement", "OBJECT"),
+        ("VectorDisplacement", "WORLD"),
+    ):
+
+        def displaced(tree: Any, kind: str = kind, space: str = space) -> Any:
+            wave = make(tree, "ShaderNodeTexWave", 1, inputs={"Vector": place(tree), "Scale": 0.2})
+            value: Any = wave if kind == "Displacement" else place(tree)
+            inputs = Values({0: value, "Midlevel": 0.2, "Scale": 0.3})
+            moved_by = make(tree, f"ShaderNode{kind}", inputs=inputs, space=space)
+            output = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeOutputMaterial")
+            tree.links.new(moved_by, output.inputs["Displacement"])
+            return make(tree, "ShaderNodeNewGeometry", "Normal")
+
+        yield f"{kind} {space}", displaced
 
 
 FAMILIES: dict[str, Callable[[], list[Case]]] = {

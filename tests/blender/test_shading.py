@@ -25,10 +25,6 @@ EDGES = {
 }
 FEW = 0.05
 
-# Where Glimmer differs from the newest Cycles: images whose colours are multiplied by their alpha come out brighter or
-# darker since some Blender after 5.0. Why is not known yet; addon/docs/using.md says so.
-KNOWN_IN_NEWEST = ("image premultiplied", "image floats with alpha")
-
 
 # What lies between the oldest Blender and the newest is slow to try and seldom fails alone.
 oldest_and_newest = pytest.mark.parametrize(
@@ -45,13 +41,12 @@ def found(request: pytest.FixtureRequest, host: Host, tmp_path_factory: pytest.T
 
 
 @oldest_and_newest
-def test_nodes_show_what_they_show_in_cycles(found: dict[str, Any], host: Host) -> None:
+def test_nodes_show_what_they_show_in_cycles(found: dict[str, Any]) -> None:
     assert len(found["cases"]) > 20
     wrong = {}
     for name, case in found["cases"].items():
         allowed = next((part for words, part in EDGES.items() if words in name), FEW)
-        known = host.kind == "newest" and name.startswith(KNOWN_IN_NEWEST)
-        if case["off"] > allowed and not known:
+        if case["off"] > allowed:
             wrong[name] = case
     assert not wrong, json.dumps(wrong, indent=1)
 
