@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Attribute, Floats
-from .translate.surface import ACTIVE_COLOR, ACTIVE_UV, GENERATED, TANGENT_PREFIX, named
+from .translate.surface import ACTIVE_COLOR, ACTIVE_UV, GENERATED, ISLAND, TANGENT_PREFIX, named
 
 if TYPE_CHECKING:
     import bpy
@@ -56,6 +56,10 @@ class AttributeReader:
             return self._color(self._active_color())
         if name.startswith(TANGENT_PREFIX):
             return self._tangents(name[len(TANGENT_PREFIX) :])
+        if name == ISLAND:
+            return "face", self._islands()
+        if not name.startswith(named("")):
+            return None  # of instances
         own = name[len(named("")) :]
         layer = self._mesh.uv_layers.get(own)
         if layer is not None:
@@ -72,6 +76,14 @@ class AttributeReader:
         size = np.array(self._mesh.texspace_size, np.float64)
         inverse = np.where(size != 0.0, 0.5 / np.where(size != 0.0, size, 1.0), 0.0)
         return rest.reshape(-1, 3) * inverse - (location * inverse - 0.5)
+
+    def _islands(self) -> Floats:
+        """(triangles, 1): a number of 0 to 1 that all triangles of a connected part share."""
+        edges = np.empty(2 * len(self._mesh.edges), np.int32)
+        self._mesh.edges.foreach_get("vertices", edges)
+        roots = np.array(island_roots(len(self._mesh.vertices), edges.reshape(-1, 2).tolist()), np.uint32)
+        first = self._corner_vertices[self._corners.reshape(-1, 3)[:, 0]]
+        return (hash_words(roots[first]) / np.float64(0xFFFFFFFF)).astype(np.float32)[:, None]
 
     def _uv(self, layer: Any) -> Floats:
         values = np.empty(2 * len(layer.data), np.float32)
@@ -119,6 +131,43 @@ class AttributeReader:
         return "corner", corner_tangents(
             positions.reshape(-1, 3)[vertices], normals.reshape(-1, 3)[self._corners], self._uv(layer)
         )
+
+
+def island_roots(count: int, edges: list[list[int]]) -> list[int]:
+    """For each vertex that which stands for its island, chosen as Blender's renderers choose it: sets are joined in the
+    order of the edges, the lower under the higher, the second under the first of equals."""
+    parent, rank = list(range(count)), [0] * count
+
+    def root(x: int) -> int:
+        while parent[x] != x:
+            parent[x] = parent[parent[x]]
+            x = parent[x]
+        return x
+
+    for a, b in edges:
+        x, y = root(a), root(b)
+        if x == y:
+            continue
+        if rank[x] < rank[y]:
+            x, y = y, x
+        parent[y] = x
+        rank[x] += rank[x] == rank[y]
+    return [root(x) for x in range(count)]
+
+
+def hash_words(words: NDArray[np.uint32]) -> NDArray[np.uint32]:
+    """Bob Jenkins' lookup3 of one word each."""
+    start = np.uint32(0xDEADBEEF + (1 << 2) + 13)
+    a, b, c = words + start, np.full_like(words, start), np.full_like(words, start)
+
+    def mixed(x: NDArray[np.uint32], y: NDArray[np.uint32], bits: int) -> NDArray[np.uint32]:
+        return (x ^ y) - ((y << np.uint32(bits)) | (y >> np.uint32(32 - bits)))
+
+    with np.errstate(over="ignore"):
+        for bits in (14, 11, 25, 16, 4, 14, 24):
+            c = mixed(c, b, bits)
+            a, b, c = b, c, a
+    return b
 
 
 def corner_tangents(positions: Floats, normals: Floats, uvs: Floats) -> Floats:

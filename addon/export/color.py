@@ -7,6 +7,11 @@ import numpy as np
 
 from ..scene.description import Floats, Rgb
 
+# CIE XYZ to linear Rec. 709, white at D65.
+TO_RGB = np.array(
+    [[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]]
+)
+
 
 def srgb_to_linear(values: Floats) -> Floats:
     """IEC 61966-2-1, elementwise."""
@@ -36,10 +41,7 @@ def blackbody(kelvin: float) -> Rgb:
     y = 0.821 * lobe(568.8, 0.0213, 0.0247) + 0.286 * lobe(530.9, 0.0613, 0.0322)
     z = 1.217 * lobe(437.0, 0.0845, 0.0278) + 0.681 * lobe(459.0, 0.0385, 0.0725)
     xyz = np.array([(spectrum * curve).sum() for curve in (x, y, z)])
-    to_rgb = np.array(
-        [[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]]
-    )
-    red, green, blue = np.maximum(to_rgb @ (xyz / xyz[1]), 0.0)
+    red, green, blue = np.maximum(TO_RGB @ (xyz / xyz[1]), 0.0)
     return float(red), float(green), float(blue)
 
 

@@ -29,6 +29,7 @@ from ..scene.description import (
 from ..scene.problems import Notices, place
 from ..scene.program import Op, TooLargeError, programmed
 from .combine import add, mix
+from .displacement import bump_of_displacement
 from .nodes import Input, Nodes, Source
 from .principled import principled
 from .translate.image import Images
@@ -65,8 +66,9 @@ def export_material(
     shaders = _Shaders(material, where, version, notices, images)
     shaders.nodes.constants_only = constants_only
     result = shaders.output()
+    has_normal = not isinstance(result, (Light, Null))
     try:
-        (named, normal), program = programmed((result, shaders.normal))
+        (named, normal), program = programmed((result, shaders.normal if has_normal else None))
     except TooLargeError as error:
         notices.add(where, f"its nodes cannot be rendered, since {error}; its viewport colour is used")
         return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
@@ -102,6 +104,7 @@ class _Shaders:
     ) -> None:
         self.nodes = Nodes(material.node_tree, where, notices, images)
         self.nodes.material_index = material.pass_index
+        self.material = material
         self.normal: Op | None = None  # of the surface, where it is not the mesh's
         self.viewport_color = _rgb(material.diffuse_color)
         self.where = where
@@ -114,6 +117,7 @@ class _Shaders:
             self.notices.add(self.where, "has no output node; its viewport colour is used")
             return Lambert(_clipped(self.viewport_color))
         self._note_other_outputs()
+        self.nodes.bumped_normal = self.normal = bump_of_displacement(self.nodes, self.material)
         if self.nodes.source(surface) is None:
             volume = self.nodes.surface_of_output("Volume")
             if volume is not None and self.nodes.source(volume) is not None:
@@ -123,10 +127,7 @@ class _Shaders:
         return self.shader(surface)
 
     def _note_other_outputs(self) -> None:
-        for name, what in (
-            ("Volume", "a volume inside an object is not supported; its surface alone is rendered"),
-            ("Displacement", "displacement is not supported; the surface is rendered as modelled"),
-        ):
+        for name, what in (("Volume", "a volume inside an object is not supported; its surface alone is rendered"),):
             item = self.nodes.surface_of_output(name)
             if item is not None and self.nodes.source(item) is not None:
                 self.notices.add(self.where, what)
@@ -150,7 +151,7 @@ class _Shaders:
             self.nodes.notice(source.node, "bump and normal maps are left out; the surface is smooth")
             return
         normal = triple(self.nodes.socket_value(source, socket))
-        if self.normal is None:
+        if self.normal is self.nodes.bumped_normal:
             self.normal = normal if isinstance(normal, Op) else op("combine", *normal)
         elif normal is not self.normal:
             self.nodes.notice(source.node, "shaders of one material cannot have several normals; the first is used")

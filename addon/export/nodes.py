@@ -111,9 +111,11 @@ class Nodes:
         self.notices = notices
         self.images = images or image.Images()
         self.version = blender_version()
+        self.frame = self.images.frame  # of the scene
         self.is_sky = False  # the tree is a world's
         self.material_index = 0  # Blender's pass index
         self.constants_only = False  # nothing may vary, as in a scene file
+        self.bumped_normal: Op | None = None  # by the material's displacement: what nodes know as the normal
         self.shift = "center"  # where a bump asks for its height
         self.shift_width: Number = 1.0
         self._values: dict[tuple[Any, ...], Value] = {}
@@ -601,5 +603,6 @@ _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeFresnel": surface.fresnel,
     "ShaderNodeLayerWeight": surface.layer_weight,
     "ShaderNodeBump": surface.bump,
+    "ShaderNodeWavelength": color_nodes.wavelength,
     "ShaderNodeNormalMap": surface.normal_map,
 }

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...scene.program import Table
+from .. import observer
+from ..color import TO_RGB
 from ..color import blackbody as blackbody_color
 from .arithmetic import mix_inputs
-from .values import Number, Value, clamped, number, op, triple, vector_math
+from .values import Number, Value, clamped, clamped_color, math, number, op, product, scaled, triple, vector_math
 
 if TYPE_CHECKING:
     from ..nodes import Nodes, Source
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 RAMP_ROWS = 256
 BLACKBODY_RANGE = (800.0, 12000.0)  # beyond it the colour stays
 BLACKBODY_ROWS = 1121
+BRIGHTEST_WAVELENGTH = 2.52  # what Blender divides colours by, so that none exceeds 1
 
 
 def mix(nodes: Nodes, source: Source) -> Value:
@@ -122,6 +125,15 @@ def invert(nodes: Nodes, source: Source) -> Value:
 def to_gray(nodes: Nodes, source: Source) -> Value:
     value = nodes.input(source, 0)
     return op("luminance", triple(value))
+
+
+def wavelength(nodes: Nodes, source: Source) -> Value:
+    rows = np.ones((len(observer.XYZ), 4), np.float32)
+    rows[:, :3] = observer.XYZ @ TO_RGB.T / BRIGHTEST_WAVELENGTH
+    nm, last = number(nodes.input(source, 0)), observer.FIRST + observer.STEP * (len(rows) - 1)
+    color = op("ramp", nm, modes=("linear",), resource=Table(rows, observer.FIRST, last))
+    seen = product(math("less_than", nm, last), math("greater_than", nm, observer.FIRST - observer.STEP))
+    return scaled(clamped_color(color, 0.0, 1e6), seen)
 
 
 def blackbody(nodes: Nodes, source: Source) -> Value:

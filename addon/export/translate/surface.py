@@ -18,6 +18,7 @@ ACTIVE_UV = "uv"
 ACTIVE_COLOR = "color"
 GENERATED = "generated"
 TANGENT_PREFIX = "tangent:"
+ISLAND = "island"  # another number for each part of a mesh that hangs together
 
 # From here on the strength of a normal map scales what it holds; before, it blends normals.
 STRENGTH_IN_TANGENTS = (4, 0)
@@ -32,6 +33,8 @@ def tangents(uv_map: str) -> str:
 
 
 def geometry(nodes: Nodes, what: str) -> Op:
+    if what == "normal" and nodes.bumped_normal is not None:
+        return nodes.bumped_normal
     return op("geometry", nodes.shift_width, modes=(what, nodes.shift))
 
 
@@ -89,7 +92,7 @@ def attribute_node(nodes: Nodes, source: Source) -> Value:
     node = source.node
     kind = getattr(node, "attribute_type", "GEOMETRY")
     if kind != "GEOMETRY":
-        nodes.not_translated(source, f"an attribute of the {kind.replace('_', ' ').lower()}")
+        nodes.not_translated(source, f"an attribute of the {kind.lower()}")
     return _attribute_output(nodes, source, named(node.attribute_name))
 
 
@@ -115,6 +118,8 @@ def geometry_node(nodes: Nodes, source: Source) -> Value:
         return geometry(nodes, "parametric")
     if kind == "Backfacing":
         return fact("backfacing")
+    if kind == "Random Per Island":
+        return op("separate", attribute(nodes, ISLAND), modes=("x",))
     if kind == "Tangent":
         return op("tangent", _around_z(attribute(nodes, GENERATED)))
     return nodes.not_translated(source, f"{source.output.name}")
@@ -166,11 +171,19 @@ LIGHT_PATH = {
     "Ray Length": "ray_length",
     "Ray Depth": "ray_depth",
 }
+# Counted by nobody: those of the camera's own rays.
+NO_DEPTH = ("Diffuse Depth", "Glossy Depth", "Transparent Depth", "Transmission Depth", "Portal Depth")
 
 
 def light_path(nodes: Nodes, source: Source) -> Value:
-    known = LIGHT_PATH.get(source.output.identifier)
-    return nodes.not_translated(source, source.output.name) if known is None else fact(known)
+    kind = source.output.identifier
+    if kind in NO_DEPTH:
+        nodes.notice(source.node, f"{kind} is not counted; it is 0, as for the camera's own rays")
+        return (0.0,)
+    known = LIGHT_PATH.get(kind)
+    if known is None:
+        return nodes.not_translated(source, source.output.name)
+    return fact(known)
 
 
 def normal_input(nodes: Nodes, source: Source) -> Triple:
