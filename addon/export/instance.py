@@ -124,7 +124,7 @@ def placed_objects(
     if plain and not _has_hidden_instancers(depsgraph, present):
         for item in depsgraph.objects:
             if is_shown is None or is_shown(item):
-                yield _single(item)
+                yield placed_once(item)
     else:
         yield from _by_loop(depsgraph, read_in_bulk, is_shown)
     yield from bulk.values()
@@ -134,7 +134,8 @@ def placed_objects(
 SHOWN_BY_OTHERS = {"CURVE", "SURFACE", "FONT", "META"}
 
 
-def _single(item: bpy.types.Object) -> Placed:
+def placed_once(item: bpy.types.Object) -> Placed:
+    """Where the object itself stands."""
     return Placed(
         item,
         False,
@@ -175,9 +176,9 @@ def _by_loop(
             item = instance.object
             if is_shown is None or is_shown(item):
                 if instance.show_self:
-                    yield _single(item)
+                    yield placed_once(item)
                 if instance.show_particles:
-                    placed = _single(item)
+                    placed = placed_once(item)
                     placed.strands = True
                     yield placed
             continue

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +28,7 @@ from ..scene.description import (
     Spheres,
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
-from .instance import BulkReader, Placed, dimensions_left, placed_objects
+from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
 from .light import export_lamp
 from .material import export_material
 from .mesh import export_mesh, flattened
@@ -106,6 +106,26 @@ def export_scene(
         finally:
             set_frame(*now)
     return Exported(description, tuple(notices.items), time.perf_counter() - start, _size(description))
+
+
+def take_notices(
+    depsgraph: bpy.types.Depsgraph,
+    items: Iterable[bpy.types.Object],
+    version: tuple[int, ...],
+    images: Images,
+    notices: Notices,
+) -> None:
+    """Only what an export of these evaluated objects would say, without their meshes. Raises nothing."""
+    collector = _Collector(depsgraph, version, notices, False, None)
+    collector.reads, collector.images = False, images
+    for item in items:
+        surface, hair = placed_once(item), placed_once(item)
+        hair.strands = True
+        for placed in (surface, hair):
+            try:
+                collector.add(placed)
+            except GlimmerError as error:
+                notices.add("", str(error))
 
 
 @dataclass(frozen=True)
@@ -214,6 +234,7 @@ class _Collector:
     ) -> None:
         self._recording = recording
         self._constants_only = constants_only
+        self.reads = True  # what takes time; else the notices alone are wanted
         self.objects: list[Object] = []
         self.spheres: list[Spheres] = []
         self.lights: list[Lamp] = []
@@ -230,7 +251,7 @@ class _Collector:
         kind = placed.item.type
         if placed.strands:
             self._add_hair(placed)
-        elif kind == "MESH":
+        elif kind == "MESH" or (kind in SHOWN_BY_OTHERS and not self.reads):
             self._add_surface(placed)
         elif kind == "CURVES":
             self._add_curves(placed)
@@ -256,9 +277,9 @@ class _Collector:
         item = placed.item
         matrices = self._matrices(placed)
         settings = getattr(item.original, "glimmer", None)
-        if settings is not None and settings.is_sphere and self._add_spheres(placed, matrices):
+        if self.reads and settings is not None and settings.is_sphere and self._add_spheres(placed, matrices):
             return
-        if not item.data.polygons:
+        if self.reads and not item.data.polygons:
             return  # and its materials are nobody's
         slots = _slots(item)
         materials = tuple(self._material(material, item.name) for material in slots)
@@ -349,14 +370,16 @@ class _Collector:
             return
         slots, is_final = _slots(item), self._depsgraph.mode == "RENDER"
         numbers = [self._material(material, item.name) for material in slots]
+        if not self.reads:
+            return
         for strands in particle_strands(item, is_final, self._attributes(tuple(numbers))):
             material = numbers[min(strands.slot, len(numbers) - 1)]
             self._add_tubes(placed, self._matrices(placed), strands, material)
 
     def _add_curves(self, placed: Placed) -> None:
-        strands = curve_strands(placed.item.data)
+        material = self._material(_slots(placed.item)[0], placed.item.name)
+        strands = curve_strands(placed.item.data) if self.reads else None
         if strands is not None:
-            material = self._material(_slots(placed.item)[0], placed.item.name)
             self._add_tubes(placed, self._matrices(placed), strands, material)
 
     def _add_tubes(self, placed: Placed, matrices: Floats, strands: Strands, material: int) -> None:
@@ -375,7 +398,7 @@ class _Collector:
             return
         if self._motion(placed) is not None:
             self._notices.add(place(item.name), f"points that move while the shutter is open, {HELD_STILL}")
-        points, radii = point_cloud(cloud)
+        points, radii = point_cloud(cloud) if self.reads else (np.zeros((0, 3)), np.zeros(0))
         matrices = self._matrices(placed)
         material = self._material(_slots(item)[0], item.name)
         scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
@@ -445,6 +468,8 @@ class _Collector:
         return frozenset(name for program in programs if program is not None for name in program.attributes)
 
     def _mesh(self, item: bpy.types.Object, slot_count: int, attributes: frozenset[str]) -> Mesh | None:
+        if not self.reads:
+            return None
         key = (item.data.as_pointer(), slot_count, attributes)
         if key not in self._meshes:
             # A copy: triangles and split normals are made in place, and the evaluated mesh belongs to Blender.

@@ -12,7 +12,7 @@ import numpy as np
 from ..scene.description import BLACK, Environment, Floats, Lamp, Medium, Rgb, SunLight
 from ..scene.problems import Notices
 from ..scene.program import Op, TooLargeError, compile_program
-from .nodes import Input, Nodes, NotConstantError, Source, add_colors, lerp, read_image, scaled
+from .nodes import Input, Nodes, NotConstantError, Source, add_colors, lerp, scaled
 from .translate.image import Images
 from .translate.values import Triple, added, clamped
 from .translate.values import lerp as blended
@@ -214,7 +214,7 @@ class _Background:
         if image is None:
             return self._fallback(node, "has no image")
         try:
-            pixels = read_image(image)
+            pixels = self.nodes.images.picture(image)
         except (ValueError, RuntimeError) as error:
             return self._fallback(node, f"cannot read image '{image.name}': {error}")
         if node.projection != "EQUIRECTANGULAR":

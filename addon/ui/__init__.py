@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panels: Blender's own that apply to us, and ours."""
 
-from . import camera, compatible, error, light, material, motion, object, render, view_layer, world
+from . import camera, compatible, differences, error, light, material, motion, object, render, view_layer, world
 
-_PARTS = (compatible, render, motion, error, view_layer, object, camera, light, material, world)
+_PARTS = (compatible, render, differences, motion, error, view_layer, object, camera, light, material, world)
 
 
 def register() -> None:

@@ -150,7 +150,55 @@ def hexagon_field() -> None:
     facts["field_report"] = dict(reports.last())
 
 
+class Drawn:
+    """Stands for a panel's layout, and remembers what is written on it."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+
+    def column(self, **_: Any) -> "Drawn":
+        return self
+
+    def label(self, text: str = "", **_: Any) -> None:
+        self.lines.append(text)
+
+
+def differences() -> None:
+    """What is not rendered as in Cycles: of a mesh, of a text that is only an instance, of a lamp and of the camera."""
+    from glimmer.ui import differences as panel
+
+    scene = new_scene()
+    bpy.data.objects["Ball"].active_material = inside.material("ShaderNodeBsdfToon")
+    text = bpy.data.curves.new("Text", "FONT")
+    text.materials.append(inside.material("ShaderNodeBsdfToon"))
+    collection = bpy.data.collections.new("Texts")
+    collection.objects.link(bpy.data.objects.new("Text", text))
+    text.body, text.extrude = "Text", 0.1
+    empty = bpy.data.objects.new("Empty", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    scene.collection.objects.link(empty)
+    inside.lamp("AREA", (0.0, 0.0, 4.0), spread=0.5)
+    scene.camera.data.dof.use_dof, scene.camera.data.dof.aperture_ratio = True, 2.0
+    missing = inside.plane("Hidden", 1.0, inside.material("ShaderNodeBsdfToon"))
+    missing.hide_render = True
+    layout = Drawn()
+    found = panel.differences(bpy.context)
+    panel.draw_notices(layout, list(found), bpy.context)
+    material = bpy.data.objects["Ball"].active_material.name
+    facts["differences"] = [str(notice) for notice in found]
+    facts["differences_drawn"] = layout.lines
+    facts["differences_of_material"] = [str(notice) for notice in panel.of_material(found, material)]
+    inside.use_format("OPEN_EXR")
+    inside.render(OUT / "differences.exr")
+    facts["differences_rendered"] = reports.last()["export"]["notices"]
+    bpy.data.objects["Ball"].active_material = None
+    bpy.context.view_layer.update()
+    panel._state.next_search = 0.0
+    facts["differences_after_edit"] = [str(notice) for notice in panel.differences(bpy.context)]
+
+
 stills()
+differences()
 settings()
 scene_file()
 layers_and_passes()

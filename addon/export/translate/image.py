@@ -66,6 +66,12 @@ class Images:
                 bpy.data.images.remove(part)
         return self._textures[key]
 
+    def picture(self, image: Any) -> Any:
+        """(height, width, 4) linear light, bottom row first; raises as `texture`."""
+        from ..nodes import read_image  # which imports this module
+
+        return read_image(image)
+
 
 def _read(image: Any) -> Texture:
     width, height = image.size
