@@ -191,10 +191,7 @@ def _moving_camera(camera: Camera, item: bpy.types.Object | None, recording: Rec
     matrices = np.array([c.to_world for c in seen])
     if is_still(matrices):
         return camera
-    notices.add(
-        "" if item is None else place(item.name), f"a camera that moves while the shutter is open, {HELD_STILL}"
-    )
-    return camera
+    return replace(camera, motion=smooth_motion(matrices[:, None], recording.shutter)[:, 0])
 
 
 def _size(scene: SceneDescription) -> int:

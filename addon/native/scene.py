@@ -142,6 +142,10 @@ class NativeScene:
         desc.shift = (c_double * 2)(*camera.shift)
         desc.lens_radius, desc.focus_distance = camera.lens_radius, camera.focus_distance
         desc.clip_start, desc.clip_end = camera.clip_start, camera.clip_end
+        motion = None
+        if camera.motion is not None:
+            motion = np.ascontiguousarray(camera.motion, np.float64)
+            desc.motion_count, desc.motion = len(motion), _pointer(motion)
         self.library.call("glimmer_scene_set_camera", self.handle, byref(desc))
 
     def _add_object(self, item: d.Object, materials: list[int], meshes: MeshCache) -> None:

@@ -235,6 +235,8 @@ class CameraDesc(ctypes.Structure):
         ("clip_end", c_double),
         ("type", c_int),
         ("width", c_double),
+        ("motion", c_void_p),
+        ("motion_count", c_size_t),
     ]
 
 

@@ -66,6 +66,7 @@ class Camera:
     focus_distance: float = 1.0
     clip_start: float = 0.0  # along the axis; below 0, behind it, for an orthographic camera alone
     clip_end: float = float("inf")
+    motion: Floats | None = None  # (steps, 4, 4), evenly spaced while the shutter is open, in place of to_world
 
 
 # ---- Materials ----------------------------------------------------------------------------------------------------

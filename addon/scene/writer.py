@@ -147,7 +147,11 @@ def _film(film: d.Film) -> Json:
 
 
 def _camera(camera: d.Camera) -> Json:
-    result: Json = {"to_world": _numbers(camera.to_world)}
+    result: Json = {}
+    if camera.motion is None:
+        result["to_world"] = _numbers(camera.to_world)
+    else:
+        result["motion"] = [_numbers(step) for step in camera.motion]
     if isinstance(camera.projection, d.Perspective):
         result["fov_x"] = camera.projection.fov_x
     else:

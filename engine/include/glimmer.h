@@ -327,6 +327,11 @@ typedef struct glimmer_camera_desc {
                                            orthographic camera any finite number, below 0 behind the camera */
     glimmer_camera_type type;           /* default perspective */
     double width;                       /* orthographic: length that the whole width shows, above 0; default 1 */
+    /* Motion while the shutter is open: (motion_count, 4, 4) matrices in place of to_world, at moments evenly spaced
+     * from when it opens to when it closes. In between, places and axes are interpolated, and the axes made orthonormal
+     * again; neighbours turn by less than a right angle. null (the default): still. */
+    const double *motion;
+    size_t motion_count; /* 2 to 1024, used when motion is not null */
 } glimmer_camera_desc;
 
 GLIMMER_API void glimmer_camera_init(glimmer_camera_desc *desc);

@@ -33,7 +33,7 @@ PROBE void probe_camera_generate(const probe_camera *c, const float *film, const
 PROBE void probe_camera_project(const probe_camera *c, const float *x, const float *lens, uint64_t n, int32_t *seen,
                                 float *film, float *rays, float *area) {
     for (uint64_t i = 0; i < n; ++i) {
-        const auto p = camera(*c).project(load3(x + 3 * i), load2(lens + 2 * i));
+        const auto p = camera(*c).project(load3(x + 3 * i), load2(lens + 2 * i), {});
         seen[i] = p.has_value();
         if (!p)
             continue;

@@ -106,6 +106,9 @@ VARIANTS = {
     "motion": replace(
         SCENE, objects=tuple(replace(o, motion=np.stack([o.to_world, place(1, 1, 0.2)])) for o in SCENE.objects[:1])
     ),
+    "moving camera": replace(
+        SCENE, camera=replace(camera(), motion=np.stack([camera().to_world, place(1, 1, 1) @ camera().to_world]))
+    ),
     "empty": replace(SCENE, objects=(), spheres=(), lights=()),
 }
 

@@ -160,6 +160,7 @@ def gradual_shutter() -> None:
 PICTURES: dict[str, Callable[[], None]] = {
     "moving ball": moving_ball,
     "turning bar": turning_bar,
+    "moving camera": moving_camera,
     "gradual shutter": gradual_shutter,
 }
 

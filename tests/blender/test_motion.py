@@ -45,6 +45,8 @@ def test_moments(folder: Path, position: str) -> None:
     np.testing.assert_allclose(np.unwrap(angles), np.linspace(opens, closes, len(turn)) * np.pi / 2, atol=1e-4)
     np.testing.assert_allclose(fine[:, 0, 3], 2.0 * np.linspace(opens, closes, 5), atol=1e-5)
     np.testing.assert_allclose(sphere[:, 0, 3], moments, atol=1e-5)
+    camera = np.array(scene["camera"]["motion"])
+    np.testing.assert_allclose(camera[:, 0, 3], moments, atol=1e-5)
     np.testing.assert_allclose(instance[:, :3, 3], np.stack([moments, 0 * moments, 0 * moments + 4], axis=1), atol=1e-5)
 
 
@@ -63,7 +65,6 @@ def test_what_stands_still_is_told(folder: Path) -> None:
     for name, words in (
         ("Shining", "shines and moves"),
         ("POINT", "a lamp that moves"),
-        ("Camera", "a camera that moves"),
         ("Vanishing", "appears or vanishes"),
         ("Bent", "may change its shape"),
         ("Sphere", "rendered as the mesh that it is"),

@@ -132,11 +132,14 @@ def metal_in_parallel_rays() -> Builder:
 
 
 def moving_plates() -> Builder:
-    """Plates and a ball that move far while the shutter is open, and hide the moons from the fog now and then: all
-    pixels of a wave share light vertices that were made at one moment."""
+    """Plates and a ball that move far while the shutter is open, and hide the moons from the fog now and then, seen by
+    a camera on its way: all pixels of a wave share light vertices and splats that were made at one moment."""
     rise = np.tile(np.eye(4), (3, 1, 1))
     rise[:, 2, 3], rise[:, 0, 3] = (0, 1, 3), (0, 2, 1)
-    scene = Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, medium=d.Medium(grey(0.01), grey(0.06)))
+    way = np.tile(np.eye(4), (3, 1, 1))
+    way[:, 0, 3], way[:, 2, 3] = (-1, 0, 2), (0, 0.4, 0)
+    view = camera((0, -4, 4), (0, 8, 1.5), 60)
+    scene = Builder(replace(view, motion=way @ view.to_world), 32, 24, medium=d.Medium(grey(0.01), grey(0.06)))
     scene.mesh(hexagon(1, 0.3), PLATE, instances=plates(), motion=rise)
     scene.mesh(octahedron((0, 4, 0.5), 0.7), d.Conductor(0.03, f0=grey(0.9)), motion=rise)
     scene.sphere((-3, 11, 4), 1.2, d.Light((3, 0.5, 0.3))).sphere((4, 9, 3), 0.8, d.Light((0.3, 3, 0.5)))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What moves while the shutter is open, against closed forms: how long each place is covered, and how it is turned."""
 
+from dataclasses import replace
 from math import cos, sin
 
 import numpy as np
@@ -37,10 +38,31 @@ def test_an_edge_that_moves(integrator: str, places: tuple[float, ...]) -> None:
     edge = floor(0, 30, (-33, 0))  # its right side at 0: the plate's middle is .1 half widths to the right
     scene.mesh(edge, d.Lambert(grey(0)), motion=moved(*places))
     columns = np.arange(SIDE) + 0.5 - SIDE / 2
-    pictures = Pictures(Measurement(scene.done(), integrator, samples=16))
+    pictures = Pictures(Measurement(scene.done(), integrator, samples=64))
     check_mean(
         lambda seed: pictures(seed).mean(axis=(0, 2)), covered_until(columns, places), within=0.1, what=integrator
     )
+
+
+def test_a_camera_that_moves() -> None:
+    """Past an edge that keeps still, and never at an even pace."""
+    places = (-6.0, 2.0, 4.0)
+    camera = from_above()
+    motion = np.stack([step @ camera.to_world for step in moved(*(-x for x in places))])
+    scene = Builder(replace(camera, motion=motion), SIDE, SIDE, environment=sky(1))
+    scene.mesh(floor(0, 30, (-33, 0)), d.Lambert(grey(0)))
+    columns = np.arange(SIDE) + 0.5 - SIDE / 2
+    pictures = Pictures(Measurement(scene.done(), "path", samples=64))
+    check_mean(lambda seed: pictures(seed).mean(axis=(0, 2)), covered_until(columns, places), within=0.1, what="camera")
+
+
+def test_depths_are_of_the_moment() -> None:
+    """A camera that comes down to a floor and turns about its axis the while: the mean depth is that of the middle."""
+    steps = np.stack([look_at((0, 0, z), (0, 0, 0), (sin(a), cos(a), 0)) for z, a in ((10, 0.0), (8, 0.4), (6, 0.9))])
+    camera = d.Camera(steps[0], d.Perspective(20), motion=steps)
+    scene = Builder(camera, 4, 4, environment=sky(1)).mesh(floor(0, 40), d.Lambert(grey(0.5)))
+    with Render(Scene(scene.done()), integrator="path", samples=1024, seed=0, passes=("depth",)) as render:
+        np.testing.assert_allclose(render.run().read("depth"), 8, atol=2e-2)
 
 
 def test_normals_turn_with_it() -> None:

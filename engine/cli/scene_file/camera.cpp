@@ -60,12 +60,19 @@ void read_camera(const Value &value, glimmer_scene *scene) {
         desc.type = types[one_of(*type, "a camera type", "camera types", names)];
     const bool perspective = desc.type == GLIMMER_PERSPECTIVE;
     value.expect_object({"type", "origin", "target", "up", "to_world", perspective ? "fov_x" : "width", "shift",
-                         "lens_radius", "focus_distance", "clip"});
-    const bool has_matrix = value.has("to_world");
-    if (has_matrix == (value.has("origin") || value.has("target") || value.has("up")))
-        value.fail("needs either origin and target (and up), or to_world");
-    const Matrix to_world = has_matrix ? value.at("to_world").matrix() : look_at(value);
-    std::copy(to_world.begin(), to_world.end(), desc.to_world);
+                         "lens_radius", "focus_distance", "clip", "motion"});
+    const bool has_matrix = value.has("to_world"), moves = value.has("motion");
+    const bool looks_at = value.has("origin") || value.has("target") || value.has("up");
+    if (int(has_matrix) + int(looks_at) + int(moves) != 1)
+        value.fail("needs either origin and target (and up), or to_world, or motion");
+    const std::vector<double> motion = read_motion(value);
+    if (moves) {
+        desc.motion = motion.data();
+        desc.motion_count = motion.size() / 16;
+    } else {
+        const Matrix to_world = has_matrix ? value.at("to_world").matrix() : look_at(value);
+        std::copy(to_world.begin(), to_world.end(), desc.to_world);
+    }
     if (perspective)
         desc.fov_x = value.at("fov_x").number({.low = 0, .high = 180, .open_low = true, .open_high = true});
     else

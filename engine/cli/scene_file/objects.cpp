@@ -44,6 +44,20 @@ Matrix matrix_or_identity(const Value &value, std::string_view key) {
     return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 }
 
+std::vector<double> read_motion(const Value &value) {
+    std::vector<double> motion;
+    const auto steps = value.find("motion");
+    if (!steps)
+        return motion;
+    steps->for_each([&](const Value &step) {
+        const Matrix matrix = step.matrix();
+        motion.insert(motion.end(), matrix.begin(), matrix.end());
+    });
+    if (motion.size() < 32)
+        steps->fail("has fewer than 2 matrices: as the shutter opens, and as it closes");
+    return motion;
+}
+
 void read_object(const Value &value, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
                  SceneFolder &folder) {
     value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices"});
@@ -65,16 +79,10 @@ void read_object(const Value &value, glimmer_scene *scene, const Materials &mate
 
     const Matrix to_world = matrix_or_identity(value, "to_world");
     std::copy(to_world.begin(), to_world.end(), desc.to_world);
-    std::vector<double> motion;
-    if (const auto steps = value.find("motion")) {
-        if (value.has("to_world"))
-            value.fail("needs either to_world or motion, which takes its place");
-        steps->for_each([&](const Value &step) {
-            const Matrix matrix = step.matrix();
-            motion.insert(motion.end(), matrix.begin(), matrix.end());
-        });
-        if (motion.size() < 32)
-            steps->fail("has fewer than 2 matrices: as the shutter opens, and as it closes");
+    if (value.has("motion") && value.has("to_world"))
+        value.fail("needs either to_world or motion, which takes its place");
+    const std::vector<double> motion = read_motion(value);
+    if (!motion.empty()) {
         desc.motion = motion.data();
         desc.motion_count = motion.size() / 16;
     }

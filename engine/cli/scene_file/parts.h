@@ -48,6 +48,8 @@ void read_environment(const Value &environment, glimmer_scene *scene, SceneFolde
 void read_medium(const Value &medium, glimmer_scene *scene);
 DepthLimits read_depth_limits(const Value &render);
 
+/// What stands at "motion", row by row and one matrix after another; empty where there is none.
+std::vector<double> read_motion(const Value &value);
 /// The matrix at a key, or the identity.
 Matrix matrix_or_identity(const Value &value, std::string_view key);
 

@@ -22,7 +22,7 @@ void check_affine(const double *m, const std::string &what) {
 }
 
 /// Rotation and translation alone, to 1e-4: what comes out of float32 matrices passes.
-void check_rigid(const double (&m)[16], const std::string &what) {
+void check_rigid(const double *m, const std::string &what) {
     check_affine(m, what);
     const Linear l = affine_from_rows(m).linear;
     for (int i = 0; i < 3; ++i)
@@ -276,6 +276,22 @@ void glimmer_camera_init(glimmer_camera_desc *desc) {
     desc->width = 1;
 }
 
+static std::vector<Affine> camera_motion(const glimmer_camera_desc &d) {
+    std::vector<Affine> steps;
+    if (!d.motion)
+        return steps;
+    check_range(double(d.motion_count), 2, 1024, "camera: motion_count");
+    for (size_t k = 0; k < d.motion_count; ++k) {
+        const std::string what = "camera: motion, step " + std::to_string(k);
+        check_rigid(d.motion + 16 * k, what);
+        steps.push_back(affine_from_rows(d.motion + 16 * k));
+        for (int axis = 0; k > 0 && axis < 3; ++axis)
+            if (!(dot(steps[k].linear.column(axis), steps[k - 1].linear.column(axis)) > 0))
+                fail_argument(what + " turns by a right angle or more from the one before; give more steps");
+    }
+    return steps;
+}
+
 glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_camera_desc *desc) {
     return guarded([&] {
         constexpr double kLongest = 1e30; // well within float
@@ -304,6 +320,7 @@ glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_came
         if (!(d.clip_end > d.clip_start))
             fail_argument("camera: clip_end is " + text(d.clip_end) + "; allowed: above clip_start, " +
                           text(d.clip_start));
+        s.camera_motion = camera_motion(d);
         s.camera = d;
     });
 }

@@ -41,7 +41,7 @@ struct Silhouette {
 /// A sphere within which all rays start.
 struct StartRegion {
     Vec3f center;
-    float radius;
+    float radius = 0;
 };
 
 /// A point on a ray and the density per length that it was drawn with.

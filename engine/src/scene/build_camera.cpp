@@ -54,6 +54,14 @@ Camera make_camera(const glimmer_camera_desc &c, const Affine &to_world, float a
     return PerspectiveCamera{camera_base(c, to_world, aspect, std::tan(c.fov_x * kPiDouble / 360))};
 }
 
+CameraMotion make_motion(const std::vector<Affine> &motion, const Vec3d &origin) {
+    std::vector<CameraPose> steps;
+    for (const Affine &a : motion)
+        steps.push_back({Vec3f(a.linear.column(0)), Vec3f(a.linear.column(1)), -Vec3f(a.linear.column(2)),
+                         Vec3f(a.translation - origin)});
+    return CameraMotion(std::move(steps));
+}
+
 } // namespace
 
 void SceneBuilder::build_camera_and_film() {
@@ -64,9 +72,12 @@ void SceneBuilder::build_camera_and_film() {
     const glimmer_camera_desc &c = *description_.camera;
     const glimmer_film_desc &f = *description_.film;
 
-    const Affine to_world = affine_from_rows(c.to_world);
+    const std::vector<Affine> &motion = description_.camera_motion;
+    const Affine to_world = motion.empty() ? affine_from_rows(c.to_world) : motion[motion.size() / 2];
     origin_ = to_world.translation;
     scene_.camera = make_camera(c, to_world, float(f.height) / float(f.width));
+    if (!motion.empty())
+        scene_.camera.set_motion(make_motion(motion, origin_));
 
     FilmSettings &film = scene_.film;
     film.width = f.width;

@@ -130,7 +130,7 @@ void SceneBuilder::build_geometry() {
     if (shining)
         scene_.warnings.push_back(std::to_string(shining) + " instance(s) shine, so they are held still where they are "
                                                             "in the middle of their motion");
-    scene_.moves = !motions.empty();
+    scene_.moves = !motions.empty() || scene_.camera.moves();
 
     std::vector<Sphere> spheres;
     for (const SpheresDescription &group : description_.spheres) {

@@ -93,7 +93,8 @@ void SceneBuilder::build_shaders() {
     shaders->sphere_materials = scene_.sphere_materials;
     shaders->sky = description_.sky;
     const glimmer_camera_desc &c = *description_.camera;
-    const Affine to_world = affine_from_rows(c.to_world);
+    const std::vector<Affine> &motion = description_.camera_motion; // programs know the camera of the middle
+    const Affine to_world = motion.empty() ? affine_from_rows(c.to_world) : motion[motion.size() / 2];
     shaders->camera.to_camera = {Vec3f(to_world.linear.column(0)), Vec3f(to_world.linear.column(1)),
                                  -Vec3f(to_world.linear.column(2))};
     shaders->camera.position = Vec3f(to_world.translation);

@@ -69,6 +69,7 @@ struct SceneDescription {
     std::optional<ParameterBinding> sky; ///< the program that gives the environment's radiance
     std::optional<MediumDescription> medium;
     std::optional<glimmer_camera_desc> camera;
+    std::vector<Affine> camera_motion; ///< at moments evenly spaced over the shutter, in place of to_world
     std::optional<glimmer_film_desc> film;
 };
 

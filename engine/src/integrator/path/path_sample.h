@@ -231,7 +231,7 @@ class PathSample {
     Shading shade(Interaction &surface, const Ray &ray) {
         return scene().materials.shade(surface, {-ray.direction, 0, ray.time}, arena_);
     }
-    void note_first_surface(const Interaction &surface);
+    void note_first_surface(const Interaction &surface, ShutterTime time);
     /// The part of a BSDF (bounded_fraction.h) that is still to be scattered: its bounded fraction where splats bring
     /// the rest, the remainder where light vertices have brought the bounded fraction.
     enum class Lobes { all, bounded, remainder };

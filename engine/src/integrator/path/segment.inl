@@ -30,7 +30,7 @@ void PathSample<F>::follow(State &state) {
         shading = shade(*surface, state.ray);
         const bool is_behind = F.transparency && (result_.hit || is_mostly_seen_through(shading));
         if (state.seen_directly() && state.depth == 0 && !is_behind)
-            note_first_surface(*surface);
+            note_first_surface(*surface, state.ray.time);
         add_emission(state, *hit, *surface, shading.emission, medium);
     } else {
         add_infinity(state, medium);

@@ -14,10 +14,10 @@
 namespace glimmer {
 
 template <KernelFeatures F>
-void PathSample<F>::note_first_surface(const Interaction &surface) {
+void PathSample<F>::note_first_surface(const Interaction &surface, ShutterTime time) {
     result_.hit = true;
     result_.normal = surface.shading_normal;
-    result_.depth = scene().camera.depth(surface.position);
+    result_.depth = scene().camera.depth(surface.position, time);
     result_.object_index = surface.object_index;
     result_.material_index = surface.material + 1;
 }

@@ -32,7 +32,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, Shu
                  const VplSettings &settings, Sampler &sampler, TraceContext &rays, std::vector<Splat> &out) {
     const Camera &camera = scene.camera;
     const Vec2f u_lens = sampler.next_2d();
-    const auto seen = camera.project(x, camera.has_lens() ? sample_uniform_disk(u_lens) : Vec2f{});
+    const auto seen = camera.project(x, camera.has_lens() ? sample_uniform_disk(u_lens) : Vec2f{}, time);
     if (!seen)
         return;
     const FilmSettings &film = scene.film;
