@@ -38,16 +38,16 @@ class RenderJob:
         for item in self.passes[1:]:
             engine.add_pass(item.blender_name, len(item.channels), item.channels, layer=self.layer)
         engine.update_stats("", "Building")
-        render, warnings = open_render(self.exported.scene)
+        render, _ = open_render(self.exported.scene)
         with render:
 
             def watch(report: dict[str, Any]) -> None:
-                reports.update(reports.collect(report, self.exported, warnings), self.layer)
+                reports.update(reports.collect(report, self.exported), self.layer)
 
             is_final = not engine.is_preview
             display = Display(engine, render, self.exported.scene, self.passes, self.layer, watch if is_final else None)
             display.run()
-            report = reports.collect(render.report(), self.exported, warnings)
+            report = reports.collect(render.report(), self.exported)
         if is_final:
             reports.publish(engine, report, self.layer)
 
@@ -62,7 +62,7 @@ class ExportJob:
     def run(self, engine: bpy.types.RenderEngine) -> None:
         write_scene(self.exported.scene, self.path)
         begin_and_end_result(engine)
-        reports.publish(engine, reports.collect({}, self.exported, []), "")
+        reports.publish(engine, reports.collect({}, self.exported), "")
 
 
 # The scene file that the next render is to write, set by the export operator.

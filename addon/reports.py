@@ -9,7 +9,6 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .export.scene import Exported
-from .export.world import BLACK_SKY, ENGINES_BLACK_SKY
 from .film.display import NOT_CERTIFIABLE, clock, error_text
 from .film.stamp import fields
 
@@ -34,12 +33,13 @@ def news() -> int:
     return _news["count"]
 
 
-def collect(engine_report: dict[str, Any], exported: Exported, warnings: list[str]) -> dict[str, Any]:
+def collect(engine_report: dict[str, Any], exported: Exported) -> dict[str, Any]:
     report = dict(engine_report)
-    said = list(dict.fromkeys([*report.get("warnings", []), *warnings]))
-    if any(BLACK_SKY in notice.what for notice in exported.notices):
-        said = [line for line in said if not line.startswith(ENGINES_BLACK_SKY)]  # once is enough
-    report["warnings"] = said
+    noticed = {notice.code for notice in exported.notices if notice.code}  # with names, so once is enough
+    warnings = zip(report.get("warnings", []), report.get("warning_codes", []), strict=True)
+    kept = [(text, code) for text, code in warnings if code not in noticed]
+    report["warnings"] = [text for text, _ in kept]
+    report["warning_codes"] = [code for _, code in kept]
     report["export"] = {
         "seconds": exported.seconds,
         "bytes": exported.bytes,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..scene.description import BLACK, Environment, Floats, Lamp, Medium, Rgb, SunLight
-from ..scene.problems import Notices
+from ..scene.problems import ENDLESS_FOG, Notices
 from ..scene.program import Op, TooLargeError, compile_program
 from .nodes import Input, Nodes, NotConstantError, Source, add_colors, lerp, scaled
 from .translate.image import Images
@@ -21,10 +21,6 @@ from .volume import volume_medium
 
 if TYPE_CHECKING:
     import bpy
-
-
-BLACK_SKY = "black behind its endless fog"
-ENGINES_BLACK_SKY = "the fog has no end"  # how the engine, which knows no names, begins the same warning
 
 
 def _around_z(angle: float) -> Floats:
@@ -69,8 +65,9 @@ def warn_of_black_sky(
     if unseen:
         notices.add(
             f"world '{world.name}'" if world else "",
-            f"{' and '.join(unseen)} {'are' if len(unseen) > 1 else 'is'} {BLACK_SKY}, as in Cycles: use point, spot or"
-            " area lamps or emissive objects inside the fog, or remove the world's Volume shader",
+            f"{' and '.join(unseen)} {'are' if len(unseen) > 1 else 'is'} black behind its endless fog, as in Cycles:"
+            " use point, spot or area lamps or emissive objects inside the fog, or remove the world's Volume shader",
+            ENDLESS_FOG,
         )
 
 

@@ -12,7 +12,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import TypeVar
 
-from ..scene.problems import GlimmerError
+from ..scene.problems import EngineWarning, GlimmerError
 from . import structs
 from .ops import OpRow, op_rows
 from .structs import ABI_VERSION, INITIALISERS, Result
@@ -25,7 +25,7 @@ Struct = TypeVar("Struct", bound=ctypes.Structure)
 _RESULT = c_int
 
 # name: (result, argument types)
-_SIGNATURES: dict[str, tuple[object, list[object]]] = {
+SIGNATURES: dict[str, tuple[object, list[object]]] = {
     "glimmer_abi_version": (c_uint32, []),
     "glimmer_version": (c_char_p, []),
     "glimmer_last_error": (c_char_p, []),
@@ -53,6 +53,8 @@ _SIGNATURES: dict[str, tuple[object, list[object]]] = {
     "glimmer_scene_set_film": (_RESULT, [c_void_p, POINTER(structs.FilmDesc)]),
     "glimmer_scene_commit": (_RESULT, [c_void_p, c_uint32]),
     "glimmer_scene_warnings": (c_char_p, [c_void_p]),
+    "glimmer_warning_name": (c_char_p, [c_uint32]),
+    "glimmer_scene_warning_code": (c_uint32, [c_void_p, c_size_t]),
     "glimmer_pass_info": (POINTER(structs.PassInfo), [c_uint32]),
     "glimmer_integrator_info": (POINTER(structs.IntegratorInfo), [c_uint32]),
     "glimmer_render_create": (_RESULT, [c_void_p, POINTER(structs.RenderDesc), POINTER(c_void_p)]),
@@ -135,7 +137,7 @@ class Library:
         self._check()
 
     def _declare(self) -> None:
-        for name, (result, arguments) in _SIGNATURES.items():
+        for name, (result, arguments) in SIGNATURES.items():
             function = self._function(name)
             function.restype = result
             function.argtypes = arguments
@@ -187,9 +189,12 @@ class Library:
     def version(self) -> str:
         return str(self._library.glimmer_version().decode())
 
-    def warnings(self, scene: c_void_p) -> list[str]:
+    def warnings(self, scene: c_void_p) -> list[EngineWarning]:
         text = self._library.glimmer_scene_warnings(scene) or b""
-        return [line for line in text.decode("utf-8", "replace").splitlines() if line]
+        lines = [line for line in text.decode("utf-8", "replace").splitlines() if line]
+        numbers = [self._library.glimmer_scene_warning_code(scene, i) for i in range(len(lines))]
+        codes = [(self._library.glimmer_warning_name(number) or b"").decode() for number in numbers]
+        return [EngineWarning(code, line) for code, line in zip(codes, lines, strict=True)]
 
     def integrators(self) -> list[tuple[str, str]]:
         """(name, help) of each; the first is the default."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import RenderSettings, SceneDescription
-from ..scene.problems import GlimmerError
+from ..scene.problems import EngineWarning, GlimmerError
 from . import structs
 from .library import Library, load
 from .open_set import OpenSet
@@ -176,7 +176,7 @@ open_renders: OpenSet[NativeRender] = OpenSet()
 _meshes: dict[int, MeshCache] = {}
 
 
-def open_render(scene: SceneDescription, meshes: MeshCache | None = None) -> tuple[NativeRender, list[str]]:
+def open_render(scene: SceneDescription, meshes: MeshCache | None = None) -> tuple[NativeRender, list[EngineWarning]]:
     """Builds the scene and a render of it, ready to start, and the scene's warnings.
 
     Meshes of the last scene that are in this one too are not built again. They are kept in `meshes`, without which all

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..scene import description as d
-from ..scene.problems import GlimmerError
+from ..scene.problems import EngineWarning, GlimmerError
 from ..scene.program import Output
 from . import structs
 from .library import Library
@@ -99,7 +99,7 @@ class NativeScene:
             self.library.free("glimmer_scene_destroy", self.handle)
             self.handle = c_void_p()
 
-    def warnings(self) -> list[str]:
+    def warnings(self) -> list[EngineWarning]:
         return self.library.warnings(self.handle)
 
     def _fill(self, scene: d.SceneDescription, meshes: MeshCache) -> None:

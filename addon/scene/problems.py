@@ -21,11 +21,23 @@ def describe(error: Exception) -> str:
 
 
 @dataclass(frozen=True)
+class EngineWarning:
+    """Something that the engine warns of."""
+
+    code: str  # for programs: the words may change
+    text: str
+
+
+ENDLESS_FOG = "endless_fog"  # the engine's code, and that of the notice which says the same with names
+
+
+@dataclass(frozen=True)
 class Notice:
     """Something of the scene that is rendered in another way than it was written, and how."""
 
     where: str  # "object 'Moon', material 'Red', node 'Noise Texture'": the parts that apply
     what: str
+    code: str = ""  # where a program looks for it
 
     def __str__(self) -> str:
         return f"{self.where}: {self.what}" if self.where else self.what
@@ -44,8 +56,8 @@ class Notices:
     items: list[Notice] = field(default_factory=list)
     _seen: set[Notice] = field(default_factory=set)
 
-    def add(self, where: str, what: str) -> None:
-        notice = Notice(where, what)
+    def add(self, where: str, what: str, code: str = "") -> None:
+        notice = Notice(where, what, code)
         if notice not in self._seen:
             self._seen.add(notice)
             self.items.append(notice)

@@ -357,6 +357,21 @@ GLIMMER_API glimmer_result glimmer_scene_commit(glimmer_scene *scene, uint32_t t
 /* Like glimmer_render_report: warnings of a committed scene, one a line ("" if none). */
 GLIMMER_API const char *glimmer_scene_warnings(glimmer_scene *scene);
 
+/* What a warning is about, for programs: the words may change. Numbers and names are never reused. */
+typedef enum glimmer_warning_code {
+    GLIMMER_WARNING_RENAMED_INTEGRATOR = 0, /* a former name was given (of a render, not of a scene) */
+    GLIMMER_WARNING_FLAT_INSTANCE = 1,      /* instances of zero scale are left out */
+    GLIMMER_WARNING_FOLDING_MOTION = 2,     /* instances that turn too far between two steps are held still */
+    GLIMMER_WARNING_SHINING_MOTION = 3,     /* instances that shine and move are held still */
+    GLIMMER_WARNING_ENDLESS_FOG = 4,        /* lights at infinity are black behind the medium */
+    GLIMMER_WARNING_NO_LIGHT = 5,           /* nothing shines */
+    GLIMMER_WARNING_COUNT = 6
+} glimmer_warning_code;
+/* Its name, as in a report's "warning_codes"; null for a number that is none. */
+GLIMMER_API const char *glimmer_warning_name(uint32_t code);
+/* The code of a line of glimmer_scene_warnings, the first is 0; GLIMMER_WARNING_COUNT where there is none. */
+GLIMMER_API glimmer_warning_code glimmer_scene_warning_code(glimmer_scene *scene, size_t line);
+
 /* ---- Render --------------------------------------------------------------------------------------------------- */
 
 /* The passes a render can give. One table in the engine drives them; see glimmer_pass_info. Pixels: y, x, channel, the

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from addon.native import structs
-from addon.native.library import FILE_NAME, Library
+from addon.native.library import FILE_NAME, SIGNATURES, Library
 from addon.native.scene import MeshCache, NativeScene
 from addon.native.structs import State
 from addon.scene.description import SceneDescription
@@ -39,13 +39,11 @@ def functions() -> ctypes.CDLL:
     """The bare functions, which give back result codes; every handle is a c_void_p."""
     engine()
     library = ctypes.CDLL(str(library_path()))
-    from addon.native.library import _SIGNATURES  # the one table of signatures
-
     more: dict[str, tuple[object, list[object]]] = {
         "glimmer_render_save": (c_int, [c_void_p, POINTER(c_void_p), POINTER(c_size_t)]),
         "glimmer_render_load": (c_int, [c_void_p, c_void_p, c_size_t]),
     }
-    for name, (result, arguments) in {**_SIGNATURES, **more}.items():
+    for name, (result, arguments) in {**SIGNATURES, **more}.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
     for name, struct in structs.INITIALISERS.items():
@@ -89,7 +87,8 @@ class Scene:
         return self._native.handle
 
     def warnings(self) -> list[str]:
-        return self._native.warnings()
+        """Their codes."""
+        return [warning.code for warning in self._native.warnings()]
 
     def __del__(self) -> None:
         if hasattr(self, "_native"):

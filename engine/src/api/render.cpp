@@ -57,7 +57,7 @@ glimmer_result glimmer_render_create(glimmer_scene *scene, const glimmer_render_
         RenderSettings settings;
         settings.integrator = checked_integrator(d.integrator);
         if (const std::string renamed = renamed_integrator(d.integrator ? d.integrator : ""); !renamed.empty())
-            settings.warnings.push_back(renamed);
+            settings.warnings.push_back({GLIMMER_WARNING_RENAMED_INTEGRATOR, renamed});
         settings.samples = d.samples;
         settings.seconds = d.seconds;
         settings.target_error = d.target_error;

@@ -365,8 +365,8 @@ glimmer_result glimmer_scene_commit(glimmer_scene *scene, uint32_t threads) {
         check_range(threads, 0, 4096, "commit: threads");
         auto built = std::make_shared<const Scene>(description, threads);
         std::string warnings;
-        for (const std::string &w : built->warnings)
-            warnings += (warnings.empty() ? "" : "\n") + w;
+        for (const Warning &w : built->warnings)
+            warnings += (warnings.empty() ? "" : "\n") + w.text;
         scene->warnings = std::move(warnings);
         scene->scene = std::move(built);
         description = {};
@@ -375,5 +375,15 @@ glimmer_result glimmer_scene_commit(glimmer_scene *scene, uint32_t threads) {
 
 const char *glimmer_scene_warnings(glimmer_scene *scene) {
     return scene && scene->magic == glimmer_scene::kMagic ? scene->warnings.c_str() : "";
+}
+
+const char *glimmer_warning_name(uint32_t code) {
+    return code < kWarningNames.size() ? kWarningNames[code] : nullptr;
+}
+
+glimmer_warning_code glimmer_scene_warning_code(glimmer_scene *scene, size_t line) {
+    if (!scene || scene->magic != glimmer_scene::kMagic || !scene->scene || line >= scene->scene->warnings.size())
+        return GLIMMER_WARNING_COUNT;
+    return scene->scene->warnings[line].code;
 }
 }

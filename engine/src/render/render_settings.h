@@ -2,10 +2,10 @@
 // What a caller asks of a render.
 #pragma once
 
+#include "base/warning.h"
 #include "integrator/depth_limits.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace glimmer {
@@ -19,9 +19,9 @@ struct RenderSettings {
     uint32_t threads = 0;                ///< 0: one for each core
     uint32_t tile_size = 64, passes = 1; ///< pixels; bit set of 1 << glimmer_pass
     DepthLimits limits;
-    bool adaptive = false;             ///< film/sample_allocation.h
-    bool full_kernel = false;          ///< make_integrator
-    std::vector<std::string> warnings; ///< of the settings themselves, for the report
+    bool adaptive = false;         ///< film/sample_allocation.h
+    bool full_kernel = false;      ///< make_integrator
+    std::vector<Warning> warnings; ///< of the settings themselves, for the report
 };
 
 } // namespace glimmer

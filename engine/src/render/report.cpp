@@ -121,8 +121,12 @@ std::string report_json(const ReportInput &in) {
             {{"fewest", std::to_string((*in.samples_taken)[0])}, {"most", std::to_string((*in.samples_taken)[1])}});
     std::vector<std::string> left_out = in.integrator.left_out();
     left_out.insert(left_out.end(), in.scene.left_out.begin(), in.scene.left_out.end());
-    std::vector<std::string> warnings = in.settings.warnings;
-    warnings.insert(warnings.end(), in.scene.warnings.begin(), in.scene.warnings.end());
+    std::vector<std::string> warnings, warning_codes;
+    for (const auto *source : {&in.settings.warnings, &in.scene.warnings})
+        for (const Warning &w : *source) {
+            warnings.push_back(w.text);
+            warning_codes.emplace_back(kWarningNames[w.code]);
+        }
     return object({
         {"engine", quoted(GLIMMER_VERSION)},
         {"integrator", quoted(kIntegrators[in.settings.integrator].name)},
@@ -146,6 +150,7 @@ std::string report_json(const ReportInput &in) {
         {"kernel", quoted(in.integrator.kernel())},
         {"left_out", list(left_out)},
         {"warnings", list(warnings)},
+        {"warning_codes", list(warning_codes)},
     });
 }
 

@@ -121,15 +121,15 @@ void SceneBuilder::build_geometry() {
         }
         scene_.meshes_.push_back(std::move(mesh));
     }
-    if (flat)
-        scene_.warnings.push_back(std::to_string(flat) + " instance(s) of zero scale, or nearly, were left out");
-
-    if (folding)
-        scene_.warnings.push_back(std::to_string(folding) + " instance(s) turn too far between two steps of their "
-                                                            "motion and are held still; give more steps");
-    if (shining)
-        scene_.warnings.push_back(std::to_string(shining) + " instance(s) shine, so they are held still where they are "
-                                                            "in the middle of their motion");
+    const auto warn = [&](size_t count, glimmer_warning_code code, const char *what) {
+        if (count)
+            scene_.warnings.push_back({code, std::to_string(count) + " instance(s) " + what});
+    };
+    warn(flat, GLIMMER_WARNING_FLAT_INSTANCE, "of zero scale, or nearly, were left out");
+    warn(folding, GLIMMER_WARNING_FOLDING_MOTION,
+         "turn too far between two steps of their motion and are held still; give more steps");
+    warn(shining, GLIMMER_WARNING_SHINING_MOTION,
+         "shine, so they are held still where they are in the middle of their motion");
     scene_.moves = !motions.empty() || scene_.camera.moves();
 
     std::vector<Sphere> spheres;

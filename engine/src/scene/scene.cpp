@@ -93,10 +93,11 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
     builder.list_left_out();
     if (medium && !lights.infinite().empty() && medium->least_extinction() > 0)
         warnings.push_back(
-            "the fog has no end, so the environment and suns behind it are exactly black; light the scene with "
-            "lights of a place and size, or leave out the fog");
+            {GLIMMER_WARNING_ENDLESS_FOG,
+             "the fog has no end, so the environment and suns behind it are exactly black; light the scene with "
+             "lights of a place and size, or leave out the fog"});
     if (lights.size() == 0)
-        warnings.push_back("nothing in the scene shines: the picture will be black");
+        warnings.push_back({GLIMMER_WARNING_NO_LIGHT, "nothing in the scene shines: the picture will be black"});
     bytes += materials.bytes() + accel->bytes();
     for (const auto &mesh : std::set(meshes_.begin(), meshes_.end())) // objects may share one
         bytes += mesh->bytes();

@@ -2,6 +2,7 @@
 // A committed scene: everything a ray can ask, in float32 about an origin at the camera. Never changes.
 #pragma once
 
+#include "base/warning.h"
 #include "camera/camera.h"
 #include "geometry/accel.h"
 #include "light/light_set.h"
@@ -50,7 +51,8 @@ class Scene {
     float max_value = 0;           ///< largest of the materials in use (see MaterialBounds)
     Vec3f bounds_center;           ///< of all surfaces and finite lights
     float bounds_radius = 0;       ///< 0: there are none
-    std::vector<std::string> warnings, left_out;
+    std::vector<Warning> warnings;
+    std::vector<std::string> left_out;
     double build_seconds = 0;
     size_t bytes = 0; ///< of its large arrays and BVHs
 

@@ -91,6 +91,8 @@ def test_degenerate_but_legal(scene: c_void_p) -> None:
     assert library.glimmer_scene_set_film(scene, byref(film)) == OK
     assert library.glimmer_scene_commit(scene, 1) == OK, last_error()
     assert b"black" in library.glimmer_scene_warnings(scene)
+    assert library.glimmer_warning_name(library.glimmer_scene_warning_code(scene, 0)) == b"no_light"
+    assert library.glimmer_warning_name(library.glimmer_scene_warning_code(scene, 1)) is None
     desc = engine().init(structs.RenderDesc)
     desc.samples = 3
     for integrator in (b"path", b"baseline"):

@@ -56,6 +56,7 @@ def test_former_names_of_integrators_work_and_say_so_once(former: str, tmp_path:
     assert same_bits(expected, picture) and picture.attributes["glimmer:integrator"] == present
     assert told["integrator"] == present
     assert told["warnings"] == [f'integrator "{former}" is now called "{present}"']
+    assert told["warning_codes"] == ["renamed_integrator"]
 
 
 def test_present_names_of_integrators_need_no_word(tmp_path: Path) -> None:

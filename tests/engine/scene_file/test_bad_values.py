@@ -69,7 +69,11 @@ BAD = [
     Bad(("camera", "target"), [0, -8, 2], "camera.target: the target is where the origin is"),
     Bad(("camera", "up"), [0, 0, 0], "camera.up: [0, 0, 0] is not a direction"),
     Bad(("camera", "up"), [0, 8, -2], "camera: up is parallel to the direction of view"),
-    Bad(("camera", "to_world"), scenes.IDENTITY, "camera: needs either origin and target (and up), or to_world, or motion"),
+    Bad(
+        ("camera", "to_world"),
+        scenes.IDENTITY,
+        "camera: needs either origin and target (and up), or to_world, or motion",
+    ),
     Bad(("camera", "focus_distance"), REMOVED, "camera: a lens_radius above 0 needs a focus_distance"),
     Bad(("camera", "lens_radius"), -1, "camera.lens_radius: -1 is not a number of 0 or more"),
     Bad(("camera", "clip"), [2, 1], "camera.clip: [2,1] is not [start, end] with start < end"),
@@ -79,7 +83,9 @@ BAD = [
         [scenes.IDENTITY],
         "objects[0]: needs either to_world or motion, which takes its place",
     ),
-    Bad(("camera", "motion"), [scenes.IDENTITY] * 2, "camera: needs either origin and target (and up), or to_world, or"),
+    Bad(
+        ("camera", "motion"), [scenes.IDENTITY] * 2, "camera: needs either origin and target (and up), or to_world, or"
+    ),
     Bad(("objects", 3, "motion"), [scenes.IDENTITY], "objects[3].motion: has fewer than 2 matrices"),
     Bad(("objects", 3, "motion"), [scenes.IDENTITY, 5], "objects[3].motion[1]: 5 is not a"),
     Bad(("camera", "type"), "round", 'camera.type: "round" is not a camera type; camera types are "perspective",'),
