@@ -130,6 +130,7 @@ class NativeScene:
             desc.crop = (c_uint32 * 4)(*film.crop)
         desc.filter = Filter[film.filter.upper()]
         desc.filter_width = film.filter_width
+        desc.exposure = film.exposure
         self.library.call("glimmer_scene_set_film", self.handle, byref(desc))
 
     def _set_camera(self, camera: d.Camera) -> None:
@@ -162,6 +163,7 @@ class NativeScene:
             matrices, kind = _contiguous_floats(item.instances[:, :3, :])
             desc.instance_count, desc.instance_format, desc.instances = len(matrices), kind, _pointer(matrices)
         desc.color = item.color
+        desc.visible, desc.holdout = int(item.rays), int(item.is_holdout)
         randoms = np.ascontiguousarray(item.random, np.float32).reshape(-1)
         desc.random = float(randoms[0])
         if matrices is not None and len(randoms) == len(matrices):
@@ -181,15 +183,20 @@ class NativeScene:
         desc.radius_count, desc.radii = len(radii), _pointer(radii)
         desc.material = materials[spheres.material]
         desc.object_index = spheres.object_index
+        desc.visible, desc.holdout = int(spheres.rays), int(spheres.is_holdout)
         self.library.call("glimmer_scene_add_spheres", self.handle, byref(desc))
 
     def _add_lamp(self, lamp: d.Lamp) -> None:
         desc = self.library.init(structs.LightDesc)
         desc.name = lamp.name.encode()
         _LAMP_FILLERS[type(lamp)](desc, lamp)
+        desc.visible, desc.shadows = int(lamp.flags.rays), int(lamp.flags.shadows)
+        if lamp.flags.max_bounces is not None:
+            desc.max_bounces = lamp.flags.max_bounces
         self.library.call("glimmer_scene_add_light", self.handle, byref(desc))
 
     def _set_environment(self, environment: d.Environment) -> None:
+        self.library.call("glimmer_scene_set_environment_visible", self.handle, int(environment.rays))
         if environment.program is not None:
             programs = ProgramAdder(self.library, self.handle)
             try:
@@ -214,23 +221,26 @@ class NativeScene:
 def _fill_point(desc: Any, lamp: d.PointLight) -> None:
     desc.type = LightType.POINT
     desc.color, desc.position, desc.radius = lamp.intensity, lamp.position, lamp.radius
+    desc.disk = int(lamp.is_disk)
 
 
 def _fill_spot(desc: Any, lamp: d.SpotLight) -> None:
     desc.type = LightType.SPOT
     desc.color, desc.position, desc.radius = lamp.intensity, lamp.position, lamp.radius
     desc.direction, desc.angle, desc.blend = lamp.direction, lamp.angle, lamp.blend
+    desc.disk, desc.times_cosine = int(lamp.is_disk), int(lamp.times_cosine)
 
 
 def _fill_sun(desc: Any, lamp: d.SunLight) -> None:
     desc.type = LightType.SUN
     desc.color, desc.direction, desc.angle = lamp.irradiance, lamp.direction, lamp.angle
+    desc.disk = int(lamp.is_tangent)
 
 
 def _fill_area(desc: Any, lamp: d.AreaLight) -> None:
     desc.type = LightType.AREA
     desc.color, desc.to_world = lamp.radiance, _matrix(lamp.to_world)
-    desc.size, desc.ellipse = lamp.size, int(lamp.ellipse)
+    desc.size, desc.ellipse, desc.spread = lamp.size, int(lamp.ellipse), lamp.spread
 
 
 _LAMP_FILLERS: dict[type, Callable[[Any, Any], None]] = {

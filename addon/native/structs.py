@@ -190,6 +190,8 @@ class ObjectDesc(ctypes.Structure):
         ("randoms", c_void_p),
         ("motion", c_void_p),
         ("motion_count", c_size_t),
+        ("visible", c_uint32),
+        ("holdout", c_int),
     ]
 
 
@@ -203,6 +205,8 @@ class SpheresDesc(ctypes.Structure):
         ("radii", c_void_p),
         ("material", c_uint32),
         ("object_index", c_uint32),
+        ("visible", c_uint32),
+        ("holdout", c_int),
     ]
 
 
@@ -220,6 +224,12 @@ class LightDesc(ctypes.Structure):
         ("to_world", c_double * 16),
         ("size", c_double * 2),
         ("ellipse", c_int),
+        ("visible", c_uint32),
+        ("shadows", c_int),
+        ("max_bounces", c_uint32),
+        ("disk", c_int),
+        ("times_cosine", c_int),
+        ("spread", c_double),
     ]
 
 
@@ -248,6 +258,7 @@ class FilmDesc(ctypes.Structure):
         ("crop", c_uint32 * 4),
         ("filter", c_int),
         ("filter_width", c_float),
+        ("exposure", c_float),
     ]
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator
 from dataclasses import MISSING, dataclass, field, fields
+from enum import IntFlag
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -23,6 +24,22 @@ Floats = NDArray[np.floating]
 # Rgb and float, but where a parameter varies: an Op while the material is translated, then an Output of its program.
 Color = Any
 Number = Any
+
+
+class Rays(IntFlag):
+    """Kinds of rays, as the engine knows them."""
+
+    CAMERA = 1
+    DIFFUSE = 2
+    GLOSSY = 4
+    TRANSMISSION = 8
+    VOLUME = 16
+    SHADOW = 32
+
+
+EVERY_RAY = Rays(63)
+LAMP_RAYS = EVERY_RAY & ~Rays.CAMERA  # that meet a lamp of which nothing else is known
+
 BLACK: Rgb = (0.0, 0.0, 0.0)
 WHITE: Rgb = (1.0, 1.0, 1.0)
 
@@ -37,6 +54,7 @@ class Film:
     crop: tuple[int, int, int, int] | None = None  # x0, y0, x1, y1 from the top left; None is the whole picture
     filter: str = "box"  # or "blackman_harris"
     filter_width: float = 1.5  # full, in pixels
+    exposure: float = 1.0  # factor of all light
 
     @property
     def window(self) -> tuple[int, int, int, int]:
@@ -236,6 +254,8 @@ class Object:
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)  # with alpha: what shader programs know
     random: float | Floats = 0.0  # 0 to 1; (n,): one an instance
     motion: Floats | None = None  # (steps, 4, 4), evenly spaced while the shutter is open, in place of to_world
+    rays: Rays = EVERY_RAY  # that meet it
+    is_holdout: bool = False  # black where the camera sees it
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,9 +265,20 @@ class Spheres:
     radii: Floats  # (n,)
     material: int
     object_index: int = 0
+    rays: Rays = EVERY_RAY
+    is_holdout: bool = False
 
 
 # ---- Lights -------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class LampFlags:
+    """What all lamps have."""
+
+    rays: Rays = LAMP_RAYS  # that meet it; with them the lobes that it lights
+    shadows: bool = True
+    max_bounces: int | None = None  # None: no limit
 
 
 @dataclass(frozen=True)
@@ -256,6 +287,8 @@ class PointLight:
     position: tuple[float, float, float]
     intensity: Rgb
     radius: float = 0.0
+    is_disk: bool = False  # that faces what it lights; else a sphere
+    flags: LampFlags = LampFlags()
 
 
 @dataclass(frozen=True)
@@ -267,6 +300,9 @@ class SpotLight:
     angle: float
     blend: float
     radius: float = 0.0
+    is_disk: bool = False
+    times_cosine: bool = False  # darker by the cosine to its axis as well
+    flags: LampFlags = LampFlags()
 
 
 @dataclass(frozen=True)
@@ -275,6 +311,8 @@ class SunLight:
     direction: tuple[float, float, float]
     irradiance: Rgb
     angle: float
+    is_tangent: bool = False  # Cycles' law until 3.6, see the engine's tangent_sun_lamp.h
+    flags: LampFlags = LampFlags()
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,6 +322,8 @@ class AreaLight:
     size: tuple[float, float]
     radiance: Rgb
     ellipse: bool = False
+    spread: float = 180.0  # full angle about its normal, in degrees
+    flags: LampFlags = LampFlags()
 
 
 Lamp = PointLight | SpotLight | SunLight | AreaLight
@@ -295,6 +335,7 @@ class Environment:
     image: NDArray[np.float32] | None = None  # (height, width, 3) linear, top row first, centre along +y, z up
     to_world: Floats = field(default_factory=lambda: np.eye(4))
     program: Program | None = None  # its first output is the radiance; the rest is then not looked at
+    rays: Rays = EVERY_RAY  # that see it
 
 
 @dataclass(frozen=True)

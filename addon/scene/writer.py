@@ -58,7 +58,7 @@ class _Writer:
             "meshes": self._meshes,
             "objects": [self._object(item) for item in scene.objects],
             "spheres": [self._spheres(item) for item in scene.spheres],
-            "lights": [_LAMPS[type(lamp)](lamp) for lamp in scene.lights],
+            "lights": [_lamp(lamp) for lamp in scene.lights],
             "environment": self._environment(scene.environment),
         }
         if scene.medium is not None:
@@ -100,7 +100,7 @@ class _Writer:
             result["instances"] = self._save("instances", item.instances)
         if item.object_index:
             result["index"] = item.object_index
-        return result
+        return {**result, **_visibility(item)}
 
     def _spheres(self, spheres: d.Spheres) -> Json:
         if len(spheres.centers) == 1:
@@ -111,18 +111,30 @@ class _Writer:
         result["material"] = self._material_names[spheres.material]
         if spheres.object_index:
             result["index"] = spheres.object_index
-        return result
+        return {**result, **_visibility(spheres)}
 
     def _environment(self, environment: d.Environment) -> Json:
+        visible = _visible(environment.rays, d.EVERY_RAY)
         if environment.image is None:
-            return {"radiance": list(environment.radiance)}
+            return {"radiance": list(environment.radiance), **visible}
         self._folder.mkdir(parents=True, exist_ok=True)
         write_exr(environment.image, self._folder / "environment.exr")
         return {
             "image": f"{self._folder.name}/environment.exr",
             "strength": environment.radiance[0],
             "to_world": _numbers(environment.to_world),
+            **visible,
         }
+
+
+def _visible(rays: d.Rays, usual: d.Rays) -> Json:
+    if rays == usual:
+        return {}
+    return {"visible": [ray.name.lower() for ray in d.Rays if ray in rays and ray.name]}
+
+
+def _visibility(item: d.Object | d.Spheres) -> Json:
+    return {**_visible(item.rays, d.EVERY_RAY), **({"holdout": True} if item.is_holdout else {})}
 
 
 def _unique(names: list[str]) -> list[str]:
@@ -143,6 +155,8 @@ def _film(film: d.Film) -> Json:
         result["filter"] = {"type": film.filter, "width": film.filter_width}
     if film.crop is not None:
         result["crop"] = list(film.crop)
+    if film.exposure != 1.0:
+        result["exposure"] = film.exposure
     return result
 
 
@@ -176,8 +190,20 @@ def _parameter(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else value
 
 
+def _lamp(lamp: d.Lamp) -> Json:
+    flags = lamp.flags
+    result = {**_LAMPS[type(lamp)](lamp), **_visible(flags.rays, d.LAMP_RAYS)}
+    if not flags.shadows:
+        result["shadows"] = False
+    if flags.max_bounces is not None:
+        result["max_bounces"] = flags.max_bounces
+    return result
+
+
 def _radius(lamp: d.PointLight | d.SpotLight) -> Json:
-    return {"radius": lamp.radius} if lamp.radius > 0.0 else {}
+    if lamp.radius <= 0.0:
+        return {}
+    return {"radius": lamp.radius, **({"shape": "disk"} if lamp.is_disk else {})}
 
 
 def _point(lamp: d.PointLight) -> Json:
@@ -192,6 +218,7 @@ def _spot(lamp: d.SpotLight) -> Json:
         "intensity": list(lamp.intensity),
         "angle": lamp.angle,
         "blend": lamp.blend,
+        **({"times_cosine": True} if lamp.times_cosine else {}),
         **_radius(lamp),
     }
 
@@ -202,6 +229,7 @@ def _sun(lamp: d.SunLight) -> Json:
         "direction": list(lamp.direction),
         "irradiance": list(lamp.irradiance),
         "angle": lamp.angle,
+        **({"shape": "tangent"} if lamp.is_tangent else {}),
     }
 
 
@@ -212,6 +240,7 @@ def _area(lamp: d.AreaLight) -> Json:
         "size": list(lamp.size),
         "shape": "ellipse" if lamp.ellipse else "rectangle",
         "radiance": list(lamp.radiance),
+        **({"spread": lamp.spread} if lamp.spread < 180.0 else {}),
     }
 
 

@@ -107,14 +107,14 @@ BENCHMARK(embree_intersect);
 
 void accel_intersect(benchmark::State &state) {
     const Accel &accel = *World::get().scene.accel;
-    run(state, [&](const Ray &ray) { return accel.intersect(ray).has_value(); });
+    run(state, [&](const Ray &ray) { return accel.intersect(ray, RayKind::camera).has_value(); });
 }
 BENCHMARK(accel_intersect);
 
 void accel_intersect_and_interaction(benchmark::State &state) {
     const Scene &scene = World::get().scene;
     run(state, [&](const Ray &ray) {
-        const auto hit = scene.accel->intersect(ray);
+        const auto hit = scene.accel->intersect(ray, RayKind::camera);
         if (hit)
             benchmark::DoNotOptimize(scene.interaction(ray, *hit));
         return hit.has_value();

@@ -241,6 +241,18 @@ GLIMMER_API glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t mat
    positions: directions of unit length into the sky. */
 GLIMMER_API glimmer_result glimmer_scene_bind_environment(glimmer_scene *scene, uint32_t program, uint32_t output);
 
+/* What rays are for, as a set of bits: objects, lights and the environment may be hidden from some. A ray that goes
+ * straight through a surface keeps its kind. */
+typedef enum glimmer_ray {
+    GLIMMER_RAY_CAMERA = 1,       /* the camera's own */
+    GLIMMER_RAY_DIFFUSE = 2,      /* reflected by a diffuse lobe */
+    GLIMMER_RAY_GLOSSY = 4,       /* reflected by any other */
+    GLIMMER_RAY_TRANSMISSION = 8, /* on the other side of the surface that they come from */
+    GLIMMER_RAY_VOLUME = 16,      /* scattered by the medium; they meet what diffuse rays meet as well */
+    GLIMMER_RAY_SHADOW = 32,      /* between a point and a light that lights it */
+    GLIMMER_RAY_ALL = 63
+} glimmer_ray;
+
 typedef struct glimmer_object_desc {
     size_t struct_size;
     const char *name; /* for messages; may be null */
@@ -261,6 +273,9 @@ typedef struct glimmer_object_desc {
      * is held still, with a warning. */
     const double *motion;
     size_t motion_count; /* 2 to 1024, used when motion is not null */
+    uint32_t visible;    /* set of glimmer_ray that meet it; default all */
+    int holdout;         /* not 0: a hole where the camera sees it, also through what is transparent: black, whatever is
+                            behind it. Other rays meet it as it is */
 } glimmer_object_desc;
 
 GLIMMER_API void glimmer_object_init(glimmer_object_desc *desc);
@@ -275,12 +290,15 @@ typedef struct glimmer_spheres_desc {
     const double *radii;   /* > 0 */
     uint32_t material;
     uint32_t object_index;
+    uint32_t visible; /* as of objects */
+    int holdout;
 } glimmer_spheres_desc;
 
 GLIMMER_API void glimmer_spheres_init(glimmer_spheres_desc *desc);
 GLIMMER_API glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_spheres_desc *desc);
 
-/* Lamps, as Blender has them: they shine, cast no shadow, hide nothing, and the camera does not see them. */
+/* Lamps, as Blender has them: they shine, cast no shadow and hide nothing, and without further ado the camera does not
+ * see them. */
 typedef enum glimmer_light_type {
     GLIMMER_POINT =
         0, /* position, color = intensity, radius (0: a point; else a sphere of radiance intensity/(pi r^2)) */
@@ -302,6 +320,16 @@ typedef struct glimmer_light_desc {
     double to_world[16];
     double size[2]; /* > 0 */
     int ellipse;
+    uint32_t visible;     /* set of glimmer_ray that meet it, and of the lobes that it lights; shadow rays always do.
+                             Default: all but the camera's. A point and a sun of no angle are met by none */
+    int shadows;          /* default 1; 0: nothing stands between it and what it lights */
+    uint32_t max_bounces; /* it lights what has at most so many scattering vertices between itself and the camera;
+                             default UINT32_MAX, no limit */
+    int disk; /* point and spot: not 0: with a radius, a disk that faces the point it lights, of the same radiance. Sun:
+                 not 0: its radiance grows as 1/cos^3 of the angle to its middle, color / (pi tan^2 (angle/2)) there */
+    int times_cosine; /* spot: not 0: it is darker by the cosine to its axis too */
+    double spread;    /* area: full angle about its normal to which it shines, dimmed as by slats, with the same power;
+                         above    0 to 180, the default */
 } glimmer_light_desc;
 
 GLIMMER_API void glimmer_light_init(glimmer_light_desc *desc);
@@ -310,6 +338,9 @@ GLIMMER_API glimmer_result glimmer_scene_add_light(glimmer_scene *scene, const g
 /* Radiance from outside the scene: color, times image (equirectangular, centre along +y, z up) where it is not null. */
 GLIMMER_API glimmer_result glimmer_scene_set_environment(glimmer_scene *scene, const float color[3],
                                                          glimmer_image *image, const double to_world[16]);
+
+/* Which rays see the environment, a set of glimmer_ray; all, if this is never called. */
+GLIMMER_API glimmer_result glimmer_scene_set_environment_visible(glimmer_scene *scene, uint32_t visible);
 
 /* Homogeneous, fills all space outside glass. sigma >= 0 per channel; g: Henyey-Greenstein, -1 < g < 1. */
 GLIMMER_API glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3],
@@ -345,6 +376,7 @@ typedef struct glimmer_film_desc {
     uint32_t crop[4];       /* x0, y0, x1, y1: what is rendered; all 0 (the default) for the whole picture */
     glimmer_filter filter;
     float filter_width; /* full, in pixels; box is exactly one pixel */
+    float exposure;     /* factor of all light in the picture, >= 0; default 1 */
 } glimmer_film_desc;
 
 GLIMMER_API void glimmer_film_init(glimmer_film_desc *desc);

@@ -98,7 +98,29 @@ def picture() -> NDArray[np.float32]:
     return np.random.default_rng(3).random((8, 16, 3), np.float32)
 
 
+def hidden_from_some() -> d.SceneDescription:
+    """All that may be hidden from rays, and all that lamps can be."""
+    rays = d.EVERY_RAY
+    flags = d.LampFlags(rays & ~d.Rays.DIFFUSE, False, 2)
+    floor, one, many = SCENE.objects
+    mirror, moons, glass = SCENE.spheres
+    return replace(
+        SCENE,
+        film=replace(SCENE.film, exposure=1.5),
+        objects=(floor, replace(one, rays=rays & ~d.Rays.CAMERA), replace(many, is_holdout=True)),
+        spheres=(mirror, replace(moons, rays=rays & ~d.Rays.GLOSSY), replace(glass, is_holdout=True)),
+        lights=(
+            d.PointLight("disk", (-2.0, -3.0, 4.0), (5.0, 5.0, 10.0), 0.3, is_disk=True, flags=flags),
+            d.SpotLight("spot", (0.0, -4.0, 5.0), (0.1, 0.8, -1.0), (60.0, 60.0, 60.0), 50.0, 0.3, 0.1, True, True),
+            d.SunLight("sun", (0.3, 0.2, -1.0), (0.5, 0.4, 0.3), 30.0, is_tangent=True),
+            d.AreaLight("area", place(0, 0, 6, 0.3), (1.5, 0.7), (4.0, 4.0, 5.0), spread=80.0),
+        ),
+        environment=replace(SCENE.environment, rays=rays & ~d.Rays.CAMERA),
+    )
+
+
 VARIANTS = {
+    "hidden from some": hidden_from_some(),
     "plain": SCENE,
     "fog": replace(SCENE, medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4)),
     "image": replace(SCENE, environment=d.Environment((0.7, 0.7, 0.7), picture(), place(0, 0, 0, 0.8))),

@@ -84,6 +84,7 @@ def every_key(folder: Path) -> Scene:
             "height": 12,
             "filter": {"type": "blackman_harris", "width": 1.5},
             "crop": [2, 1, 14, 11],
+            "exposure": 1.25,
         },
         "camera": {
             "origin": [0, -8, 2],

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes to measure in: radiometers, plates, boxes, balls."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -134,6 +135,12 @@ class Builder:
 
     def spheres(self, centers: Array, radii: Array, material: d.Material) -> "Builder":
         self._spheres.append(d.Spheres("spheres", centers, radii, self.material(material)))
+        return self
+
+    def hide(self, rays: d.Rays) -> "Builder":
+        """Makes all surfaces so far ones that only these rays meet."""
+        self._objects = [replace(item, rays=rays) for item in self._objects]
+        self._spheres = [replace(item, rays=rays) for item in self._spheres]
         return self
 
     def lamp(self, lamp: d.Lamp) -> "Builder":

@@ -71,6 +71,23 @@ def lamps_in_fog() -> Builder:
     return scene.lamp(d.AreaLight("area", down, (1.5, 1), (2, 1, 4), ellipse=True))
 
 
+def lamps_of_blender_3_in_fog() -> Builder:
+    """Disks that face what they light, so large that the light between their rims and their middle counts; slats."""
+    down = np.eye(4)
+    down[:3, 3] = (2, 4, 3)
+    scene = Builder(camera((0, -6, 3), (0, 4, 1), 60), 32, 24, medium=d.Medium(grey(0.04), grey(0.08), -0.3))
+    scene.mesh(floor(0, 8, (0, 4)), d.Lambert(grey(0.6))).mesh(hexagon(0.7, 0.1), PLATE, instances=plates(1, 2.5))
+    scene.lamp(d.PointLight("disk", (-1.5, 5, 1.5), (9, 5, 2), radius=1.2, is_disk=True))
+    scene.lamp(d.SpotLight("spot", (0, 1, 4), (0, 0.3, -1), (5, 9, 9), 90, 0.3, 0.6, is_disk=True, times_cosine=True))
+    return scene.lamp(d.AreaLight("area", down, (1.5, 1), (2, 1, 4), spread=70))
+
+
+def hidden_from_the_camera_in_fog() -> Builder:
+    """Smooth metal, and a light, that the camera looks through; splats and gather points are on its side of it."""
+    scene = light_by_way_of_metal()
+    return scene.hide(d.EVERY_RAY & ~d.Rays.CAMERA)
+
+
 def glass_between_lights() -> Builder:
     """Two plates that shine, far apart: what is in their middle is not what is around them."""
     scene = Builder(camera((0, -4, 1), (0, 4, 0.5), 60), 32, 24, medium=d.Medium(grey(0.02), grey(0.15)))
@@ -227,6 +244,8 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
     "lamps": lamps_in_fog,
+    "lamps of Blender 3": lamps_of_blender_3_in_fog,
+    "hidden from the camera": hidden_from_the_camera_in_fog,
     "floor under a beam": floor_under_a_beam,
     "glints": lambda: glinting_field(None, d.Conductor(0.05, f0=grey(0.8))),
     "glints in fog, through a lens": glints_in_fog,

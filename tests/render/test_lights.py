@@ -219,6 +219,71 @@ def test_back_of_an_area_light(integrator: str) -> None:
     check_radiance(Measurement(scene.done(), integrator, samples=16), 0, within=0)
 
 
+@pytest.mark.parametrize("theta", [0, 0.6])
+@pytest.mark.parametrize("radius", [1e-3, 0.5, 2.5])
+def test_disk_that_faces_the_receiver(integrator: str, radius: float, theta: float) -> None:
+    """A cone of the half angle atan(r/d), all of it above the horizon."""
+    scene = plate().lamp(d.PointLight("disk", tuple(3 * at(theta)), COLOR, radius, is_disk=True))
+    expected = FLUX * np.cos(theta) / (9 + radius**2)
+    check_radiance(Measurement(scene.done(), integrator, samples=4), expected, within=0.02)
+
+
+def test_disk_is_met_by_rays(integrator: str) -> None:
+    """A mirror shows its radiance within that cone and nothing beside it."""
+    for sine, expected in ((0.29, np.array(COLOR) / (np.pi * 0.9**2)), (0.31, np.zeros(3))):
+        eye = np.array([sine, 0, np.sqrt(1 - sine**2)])
+        scene = Builder(radiometer(eye, (0, 0, 0))).mesh(floor(), d.Mirror(WHITE))
+        radius = 3 * np.tan(np.arcsin(0.3))
+        scene.lamp(d.PointLight("disk", (0, 0, 3), tuple(np.array(COLOR) * (radius / 0.9) ** 2), radius, is_disk=True))
+        check_radiance(Measurement(scene.done(), integrator), expected, within=EXACT if sine < 0.3 else 0)
+
+
+@pytest.mark.parametrize("angle", [0, 0.4, 0.5])
+@pytest.mark.parametrize("radius", [0, 1e-3])
+def test_spot_that_is_darker_by_the_cosine(integrator: str, radius: float, angle: float) -> None:
+    axis = (np.sin(angle), 0, -np.cos(angle))
+    scene = plate()
+    scene.lamp(d.SpotLight("spot", (0, 0, 3), axis, COLOR, 60, 0.3, radius, is_disk=True, times_cosine=True))
+    expected = FLUX * exact.spot_falloff(angle, 60, 0.3) * np.cos(angle) / 9
+    rounding = ROUNDING + 2 * 8 * 2.0**-24 / abs(np.cos(angle) - np.cos(np.pi / 6)) + 4 * radius**2
+    check_radiance(Measurement(scene.done(), integrator, samples=4), expected, within=0.02, rounding=rounding)
+
+
+@pytest.mark.parametrize(("angle", "theta"), [(0.5, 0.3), (60, 0.8), (90, 0.5)])
+def test_sun_of_a_tangent_disk(integrator: str, angle: float, theta: float) -> None:
+    """Every point of the disk brings the same, times the cosine of its own direction."""
+    scene = plate().lamp(d.SunLight("sun", tuple(-3 * at(theta)), COLOR, angle, is_tangent=True))
+    r2 = np.tan(np.radians(angle / 2)) ** 2
+    expected = FLUX * np.cos(theta) * 2 * (np.sqrt(1 + r2) - 1) / r2
+    check_radiance(Measurement(scene.done(), integrator, samples=4), expected, within=0.02)
+
+
+@pytest.mark.parametrize("ellipse", [False, True])
+@pytest.mark.parametrize("spread", [10, 60, 150])
+def test_spread(integrator: str, spread: float, ellipse: bool) -> None:
+    """Integrated over the lamp, all of which sends light to the place, or a part of it."""
+    center, size = np.array([0.3, 0.2, 2.0]), (0.8, 0.5)
+    matrix = frame(center, (0.1, 0.1, 0))
+    scene = plate().lamp(d.AreaLight("area", matrix, size, COLOR, ellipse, spread))
+    u, v = np.meshgrid(*2 * [(np.arange(400) + 0.5) / 200 - 1])
+    points = center + u[..., None] * size[0] / 2 * matrix[:3, 0] + v[..., None] * size[1] / 2 * matrix[:3, 1]
+    d2 = (points**2).sum(-1)
+    cosine = (points @ matrix[:3, 2]) / np.sqrt(d2)
+    half = np.radians(spread / 2)
+    dimmed = np.maximum(1 - np.tan(np.arccos(cosine)) / np.tan(half), 0) / (1 - half / np.tan(half))
+    within = (u**2 + v**2 <= 1) if ellipse else np.ones_like(u)
+    total = (dimmed * within * cosine * points[..., 2] / np.sqrt(d2) / d2).mean() * size[0] * size[1]
+    check_radiance(Measurement(scene.done(), integrator, samples=4), FLUX * total, within=0.03, rounding=1e-3)
+
+
+def test_spread_keeps_the_power(integrator: str) -> None:
+    """A ceiling of slats over a wide plate: as bright as without, where all of its light goes."""
+    for spread in (30, 179.9):
+        matrix = frame((0, 0, 1), (0, 0, 0))
+        scene = plate().lamp(d.AreaLight("area", matrix, (1e3, 1e3), COLOR, spread=spread))
+        check_radiance(Measurement(scene.done(), integrator, samples=4), np.array(ALBEDO) * COLOR, within=0.03)
+
+
 def test_lamps_cast_no_shadow(integrator: str) -> None:
     """A point light behind an area light and a ball."""
     scene = plate().lamp(d.PointLight("point", (0, 0, 4), COLOR))

@@ -6,7 +6,9 @@
 namespace glimmer {
 
 void read_environment(const Value &value, glimmer_scene *scene, SceneFolder &folder) {
-    value.expect_object({"radiance", "image", "strength", "to_world"});
+    value.expect_object({"radiance", "image", "strength", "to_world", "visible"});
+    if (const auto visible = value.find("visible"))
+        check(glimmer_scene_set_environment_visible(scene, read_rays(*visible)), visible->where());
     if (value.has("radiance") == value.has("image"))
         value.fail("needs either radiance or image");
     if (value.has("radiance")) {

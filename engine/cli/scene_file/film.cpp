@@ -28,7 +28,7 @@ void read_filter(const Value &filter, glimmer_film_desc &desc) {
 } // namespace
 
 Film read_film(const Value &value, glimmer_scene *scene) {
-    value.expect_object({"width", "height", "filter", "crop"});
+    value.expect_object({"width", "height", "filter", "crop", "exposure"});
     glimmer_film_desc desc;
     glimmer_film_init(&desc);
     Film film;
@@ -37,6 +37,8 @@ Film read_film(const Value &value, glimmer_scene *scene) {
     film.crop = {0, 0, film.width, film.height};
     if (const auto filter = value.find("filter"))
         read_filter(*filter, desc);
+    if (const auto exposure = value.find("exposure"))
+        desc.exposure = exposure->single(kNonNegative);
     if (const auto crop = value.find("crop")) {
         crop->expect_size(4);
         size_t i = 0;

@@ -38,6 +38,13 @@ std::vector<uint32_t> read_object_materials(const Value &object, const Materials
 
 } // namespace
 
+uint32_t read_rays(const Value &list) {
+    constexpr std::string_view names[] = {"camera", "diffuse", "glossy", "transmission", "volume", "shadow"};
+    uint32_t set = 0;
+    list.for_each([&](const Value &name) { set |= 1u << one_of(name, "a kind of rays", "kinds of rays", names); });
+    return set;
+}
+
 Matrix matrix_or_identity(const Value &value, std::string_view key) {
     if (const auto matrix = value.find(key))
         return matrix->matrix();
@@ -60,7 +67,8 @@ std::vector<double> read_motion(const Value &value) {
 
 void read_object(const Value &value, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
                  SceneFolder &folder) {
-    value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices"});
+    value.expect_object(
+        {"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices", "visible", "holdout"});
     const std::string name = value.path();
     glimmer_object_desc desc;
     glimmer_object_init(&desc);
@@ -88,6 +96,11 @@ void read_object(const Value &value, glimmer_scene *scene, const Materials &mate
     }
     if (const auto index = value.find("index"))
         desc.object_index = static_cast<uint32_t>(index->integer(0, UINT32_MAX));
+
+    if (const auto visible = value.find("visible"))
+        desc.visible = read_rays(*visible);
+    if (const auto holdout = value.find("holdout"))
+        desc.holdout = holdout->boolean();
 
     std::vector<double> instances;
     std::vector<uint32_t> indices;

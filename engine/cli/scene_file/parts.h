@@ -50,6 +50,10 @@ DepthLimits read_depth_limits(const Value &render);
 
 /// What stands at "motion", row by row and one matrix after another; empty where there is none.
 std::vector<double> read_motion(const Value &value);
+
+/// A list of kinds of rays, as a set of glimmer_ray.
+uint32_t read_rays(const Value &list);
+
 /// The matrix at a key, or the identity.
 Matrix matrix_or_identity(const Value &value, std::string_view key);
 

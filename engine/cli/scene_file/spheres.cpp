@@ -5,7 +5,7 @@
 namespace glimmer {
 
 void read_spheres(const Value &value, glimmer_scene *scene, const Materials &materials, SceneFolder &folder) {
-    value.expect_object({"center", "centers", "radius", "radii", "material", "index"});
+    value.expect_object({"center", "centers", "radius", "radii", "material", "index", "visible", "holdout"});
     if (value.has("center") == value.has("centers"))
         value.fail("needs either center or centers");
     if (value.has("radius") == value.has("radii"))
@@ -17,6 +17,11 @@ void read_spheres(const Value &value, glimmer_scene *scene, const Materials &mat
     desc.material = materials.find(value.at("material"));
     if (const auto index = value.find("index"))
         desc.object_index = static_cast<uint32_t>(index->integer(0, UINT32_MAX));
+
+    if (const auto visible = value.find("visible"))
+        desc.visible = read_rays(*visible);
+    if (const auto holdout = value.find("holdout"))
+        desc.holdout = holdout->boolean();
 
     std::vector<double> centers, radii;
     if (const auto center = value.find("center")) {

@@ -122,6 +122,12 @@ int64_t Value::integer(int64_t low, int64_t high) const {
     return value;
 }
 
+bool Value::boolean() const {
+    if (!json_->is_boolean())
+        refuse("true or false");
+    return json_->get<bool>();
+}
+
 std::string Value::text() const {
     if (!json_->is_string())
         refuse("a text in double quotes");

@@ -80,6 +80,8 @@ class Value {
     /// A number that stays within the range once it is a float32.
     float single(const Range &range = kAny) const;
     int64_t integer(int64_t low, int64_t high) const;
+    /// true or false.
+    bool boolean() const;
     std::string text() const;
     template <size_t n>
     std::array<double, n> numbers(const Range &range = kAny) const {

@@ -31,6 +31,10 @@ void check_rigid(const double *m, const std::string &what) {
                 fail_argument(what + " must be rigid (rotation and translation, no scale or shear)");
 }
 
+void check_visible(uint32_t visible, const std::string &what) {
+    check_range(visible, 0, GLIMMER_RAY_ALL, what + ": visible");
+}
+
 void check_light(const glimmer_light_desc &d, const std::string &what) {
     if (uint32_t(d.type) > GLIMMER_AREA)
         fail_argument(what + ": type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 3");
@@ -49,6 +53,7 @@ void check_light(const glimmer_light_desc &d, const std::string &what) {
             fail_argument(what + ": direction is 0 0 0");
         check_range(d.angle, 0, 180, what + ": angle");
     }
+    check_visible(d.visible, what);
     if (d.type == GLIMMER_SPOT)
         check_range(d.blend, 0, 1, what + ": blend");
     if (d.type == GLIMMER_AREA) {
@@ -56,6 +61,8 @@ void check_light(const glimmer_light_desc &d, const std::string &what) {
         for (double v : d.size)
             if (!(v > 0) || !std::isfinite(v))
                 fail_argument(what + ": size is " + text(v) + "; allowed: finite numbers above 0");
+        if (!(d.spread > 0 && d.spread <= 180))
+            fail_argument(what + ": spread is " + text(d.spread) + "; allowed: above 0, up to 180 degrees");
     }
 }
 
@@ -101,6 +108,7 @@ void glimmer_object_init(glimmer_object_desc *desc) {
     std::memcpy(desc->to_world, kIdentity, sizeof kIdentity);
     for (float &c : desc->color)
         c = 1;
+    desc->visible = GLIMMER_RAY_ALL;
 }
 
 glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_object_desc *desc) {
@@ -152,6 +160,9 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
             out.randoms.assign(d.randoms, d.randoms + out.instances.size());
         for (float r : out.randoms)
             check_finite(double(r), what + ": random");
+        check_visible(d.visible, what);
+        out.visible = RayMask(d.visible);
+        out.holdout = d.holdout != 0;
         s.objects.push_back(std::move(out));
     });
 }
@@ -161,6 +172,7 @@ void glimmer_spheres_init(glimmer_spheres_desc *desc) {
         return;
     *desc = {};
     desc->struct_size = sizeof *desc;
+    desc->visible = GLIMMER_RAY_ALL;
 }
 
 glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_spheres_desc *desc) {
@@ -196,6 +208,9 @@ glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_sph
         }
         out.material = d.material;
         out.object_index = d.object_index;
+        check_visible(d.visible, what);
+        out.visible = RayMask(d.visible);
+        out.holdout = d.holdout != 0;
         s.spheres.push_back(std::move(out));
     });
 }
@@ -210,6 +225,10 @@ void glimmer_light_init(glimmer_light_desc *desc) {
     desc->direction[2] = -1;
     std::memcpy(desc->to_world, kIdentity, sizeof kIdentity);
     desc->size[0] = desc->size[1] = 1;
+    desc->visible = GLIMMER_RAY_ALL & ~GLIMMER_RAY_CAMERA;
+    desc->shadows = 1;
+    desc->max_bounces = UINT32_MAX;
+    desc->spread = 180;
 }
 
 glimmer_result glimmer_scene_add_light(glimmer_scene *scene, const glimmer_light_desc *desc) {
@@ -245,6 +264,14 @@ glimmer_result glimmer_scene_set_environment(glimmer_scene *scene, const float c
             out.to_world = affine_from_rows(m).linear;
         }
         s.environment = std::move(out);
+    });
+}
+
+glimmer_result glimmer_scene_set_environment_visible(glimmer_scene *scene, uint32_t visible) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        check_visible(visible, "environment");
+        s.environment_visible = RayMask(visible | GLIMMER_RAY_SHADOW);
     });
 }
 
@@ -334,6 +361,7 @@ void glimmer_film_init(glimmer_film_desc *desc) {
     desc->height = 270;
     desc->filter = GLIMMER_BOX;
     desc->filter_width = 1;
+    desc->exposure = 1;
 }
 
 glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_desc *desc) {
@@ -355,6 +383,7 @@ glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_d
         if (!(d.filter_width > 0 && d.filter_width <= 64))
             fail_argument("film: filter_width is " + text(double(d.filter_width)) +
                           "; allowed: above 0, up to 64 pixels");
+        check_least(double(d.exposure), 0, "film: exposure");
         s.film = d;
     });
 }

@@ -49,6 +49,11 @@ inline bool transmits(const Lobe &lobe) {
            std::holds_alternative<Translucent>(lobe);
 }
 
+inline bool is_diffuse(const Lobe &lobe) {
+    return std::holds_alternative<Lambert>(lobe) || std::holds_alternative<OrenNayar>(lobe) ||
+           std::holds_alternative<Translucent>(lobe);
+}
+
 template <class T>
 inline constexpr bool kNeedsEta = std::is_same_v<T, Dielectric>;
 
@@ -92,6 +97,15 @@ inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
     return sum;
 }
 
+/// The same of the lobes that reflect diffusely, that reflect otherwise, or that transmit: those that are asked for.
+inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi, bool diffuse, bool glossy, bool transmission) {
+    Rgb sum;
+    for (const WeightedLobe &l : bsdf)
+        if (wi.z < 0 ? transmission : is_diffuse(l.lobe) ? diffuse : glossy)
+            sum += eval(l.lobe, wo, wi, bsdf.eta) * l.weight;
+    return sum;
+}
+
 /// Density with which sample() returns wi from a smooth lobe.
 inline float pdf(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
     float sum = 0;
@@ -120,6 +134,7 @@ inline std::optional<BsdfSample> sample(const Bsdf &bsdf, const Vec3f &wo, float
     std::optional<BsdfSample> s = sample(chosen->lobe, wo, u, bsdf.eta, std::min(u_choice, 0x1.fffffep-1f));
     if (!s)
         return std::nullopt;
+    s->diffuse = is_diffuse(chosen->lobe);
     if (s->specular || smooth == 1) {
         s->weight *= chosen->weight / chosen->probability;
         s->pdf *= chosen->probability;
@@ -128,7 +143,7 @@ inline std::optional<BsdfSample> sample(const Bsdf &bsdf, const Vec3f &wo, float
     const float density = pdf(bsdf, wo, s->wi);
     if (!(density > 0))
         return std::nullopt;
-    return BsdfSample{s->wi, eval(bsdf, wo, s->wi) / density, density, false, s->transmitted};
+    return BsdfSample{s->wi, eval(bsdf, wo, s->wi) / density, density, false, s->transmitted, s->diffuse};
 }
 
 /// Delta lobes alone: light sampling finds nothing here.

@@ -22,6 +22,7 @@ struct BsdfSample {
     float pdf;                ///< per solid angle; the probability of the choice when specular
     bool specular;            ///< from a delta distribution
     bool transmitted = false; ///< wi is on the other side
+    bool diffuse = false;     ///< of a diffuse lobe; set for a whole Bsdf alone
 };
 
 } // namespace glimmer

@@ -19,6 +19,11 @@ struct FilmSample {
     bool unfinished = false;
     uint32_t object_index = 0, material_index = 0;
 
+    /// Makes all light a factor brighter.
+    void expose(float factor) {
+        for (Rgb *part : {&emission, &direct, &indirect, &medium})
+            *part *= factor;
+    }
     Rgb radiance() const { return emission + direct + indirect + medium; }
 };
 

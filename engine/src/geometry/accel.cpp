@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace glimmer {
 
@@ -18,7 +19,13 @@ constexpr double kLeastVolume = 0x1p-20; // of the rows' lengths' product; below
 struct Context {
     RTCIntersectContext embree; // first: Embree hands back a pointer to it
     uint32_t ignored_sphere;
+    RayKind kind;
+    const RayMask *visible; // of the spheres; null: all are
 };
+
+bool is_hidden(const Context &context, uint32_t sphere) {
+    return context.visible && !meets(context.kind, context.visible[sphere]);
+}
 
 float round_down(double x) {
     return std::nextafter(float(x), -kInfinity);
@@ -45,6 +52,8 @@ std::optional<float> first_root(const Sphere &sphere, const RTCRay &ray) {
 void sphere_intersect(const RTCIntersectFunctionNArguments *args) {
     if (!args->valid[0])
         return;
+    if (is_hidden(*reinterpret_cast<const Context *>(args->context), args->primID))
+        return;
     auto *hit = reinterpret_cast<RTCRayHit *>(args->rayhit);
     const Sphere &s = (*static_cast<const std::vector<Sphere> *>(args->geometryUserPtr))[args->primID];
     if (const auto t = first_root(s, hit->ray)) {
@@ -58,7 +67,8 @@ void sphere_intersect(const RTCIntersectFunctionNArguments *args) {
 void sphere_occluded(const RTCOccludedFunctionNArguments *args) {
     if (!args->valid[0])
         return;
-    if (reinterpret_cast<const Context *>(args->context)->ignored_sphere == args->primID)
+    const Context &context = *reinterpret_cast<const Context *>(args->context);
+    if (context.ignored_sphere == args->primID || is_hidden(context, args->primID))
         return;
     auto *ray = reinterpret_cast<RTCRay *>(args->ray);
     const Sphere &s = (*static_cast<const std::vector<Sphere> *>(args->geometryUserPtr))[args->primID];
@@ -160,23 +170,47 @@ bool is_solid(const InstanceMotion &motion) {
 }
 
 Accel::Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motions, std::vector<Sphere> spheres,
-             uint32_t threads)
+             std::vector<RayMask> visible, uint32_t threads)
     : instances_(std::move(instances)), motions_(std::move(motions)), spheres_(std::move(spheres)),
-      reach_(kMostCoordinate), device_(embree_device(threads)) {
-    for (const Instance &instance : instances_)
+      visible_(std::move(visible)), reach_(kMostCoordinate), device_(embree_device(threads)) {
+    for (const Instance &instance : instances_) {
         reach_ = std::min(reach_, instance.reach());
+        hides_ |= instance.visible != kEveryRay;
+    }
+    for (const RayMask mask : visible_)
+        hides_ |= mask != kEveryRay;
     for (const InstanceMotion &motion : motions_)
         for (const Instance &step : motion)
             reach_ = std::min(reach_, 0.5f * step.reach()); // between two steps the inverse is larger
     std::vector<Bvh> meshes;                                // built before the memory is counted
     for (const Instance &instance : instances_)
         meshes.push_back(instance.mesh->bvh(device_));
-    const Embree &e = embree();
     const size_t before = device_->bytes();
-    bvh_ = new_bvh(*device_);
-    scene_ = bvh_.get();
+    // Kinds of rays that see the same share a BVH; where nothing is hidden, all of them.
+    std::map<std::vector<bool>, RTCScene> known;
+    for (size_t k = 0; k < kRayKinds; ++k) {
+        const auto kind = RayKind(k);
+        std::vector<bool> seen;
+        for (size_t i = 0; hides_ && i < instances_.size(); ++i)
+            seen.push_back(meets(kind, instances_[i].visible));
+        RTCScene &scene = known[seen];
+        if (!scene) {
+            bvhs_.push_back(build(meshes, kind));
+            scene = bvhs_.back().get();
+        }
+        scenes_[k] = scene;
+    }
+    bvh_bytes_ = std::max(device_->bytes(), before) - before;
+}
+
+/// Over what rays of a kind meet; of spheres over all, which are asked one by one.
+Bvh Accel::build(const std::vector<Bvh> &meshes, RayKind kind) {
+    const Embree &e = embree();
+    Bvh bvh = new_bvh(*device_);
     for (size_t i = 0; i < instances_.size(); ++i) {
         const Instance &instance = instances_[i];
+        if (!meets(kind, instance.visible))
+            continue;
         RTCGeometry geometry = e.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
         e.rtcSetGeometryInstancedScene(geometry, meshes[i].get());
         if (instance.motion == kNone) {
@@ -188,7 +222,7 @@ Accel::Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motion
                 set_transform(geometry, unsigned(k), motion[k]);
         }
         e.rtcCommitGeometry(geometry);
-        e.rtcAttachGeometryByID(scene_, geometry, unsigned(i));
+        e.rtcAttachGeometryByID(bvh.get(), geometry, unsigned(i));
         e.rtcReleaseGeometry(geometry);
     }
     if (!spheres_.empty()) {
@@ -199,22 +233,22 @@ Accel::Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motion
         e.rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
         e.rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
         e.rtcCommitGeometry(geometry);
-        e.rtcAttachGeometryByID(scene_, geometry, unsigned(instances_.size()));
+        e.rtcAttachGeometryByID(bvh.get(), geometry, unsigned(instances_.size()));
         e.rtcReleaseGeometry(geometry);
     }
-    e.rtcCommitScene(scene_);
+    e.rtcCommitScene(bvh.get());
     device_->check("the scene");
-    bvh_bytes_ = std::max(device_->bytes(), before) - before;
+    return bvh;
 }
 
 size_t Accel::bytes() const {
     size_t steps = instances_.size();
     for (const InstanceMotion &motion : motions_)
         steps += motion.size();
-    return steps * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + bvh_bytes_;
+    return steps * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + visible_.size() + bvh_bytes_;
 }
 
-std::optional<Hit> Accel::intersect(const Ray &ray) const {
+std::optional<Hit> Accel::intersect(const Ray &ray, RayKind kind) const {
     if (!can_trace(ray))
         return std::nullopt;
     if (without_bvh())
@@ -226,7 +260,9 @@ std::optional<Hit> Accel::intersect(const Ray &ray) const {
     Context context{};
     rtcInitIntersectContext(&context.embree);
     context.ignored_sphere = kNone;
-    embree().rtcIntersect1(scene_, &context.embree, &query);
+    context.kind = kind;
+    context.visible = visible_.empty() ? nullptr : visible_.data();
+    embree().rtcIntersect1(scene(kind), &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
     Hit hit;
@@ -238,7 +274,7 @@ std::optional<Hit> Accel::intersect(const Ray &ray) const {
     return hit;
 }
 
-bool Accel::occluded(const Ray &ray, uint32_t ignored_sphere) const {
+bool Accel::occluded(const Ray &ray, RayKind kind, uint32_t ignored_sphere) const {
     if (!can_trace(ray))
         return false;
     if (without_bvh())
@@ -247,7 +283,9 @@ bool Accel::occluded(const Ray &ray, uint32_t ignored_sphere) const {
     Context context{};
     rtcInitIntersectContext(&context.embree);
     context.ignored_sphere = ignored_sphere;
-    embree().rtcOccluded1(scene_, &context.embree, &query);
+    context.kind = kind;
+    context.visible = visible_.empty() ? nullptr : visible_.data();
+    embree().rtcOccluded1(scene(kind), &context.embree, &query);
     return query.tfar < 0;
 }
 

@@ -7,6 +7,7 @@
 #include "geometry/sphere.h"
 #include "math/affine.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -23,6 +24,8 @@ struct Instance {
     uint32_t object;                    ///< of the scene: holds the materials
     uint32_t object_index;              ///< for the AOV
     uint32_t motion = kNone;            ///< of Accel::motions(); kNone: still
+    RayMask visible = kEveryRay;
+    bool holdout = false; ///< the camera sees nothing there, and nothing behind it
 
     Vec3f normal_to_world(const Vec3f &n) const {
         return Vec3f(dot(normal_matrix[0], n), dot(normal_matrix[1], n), dot(normal_matrix[2], n));
@@ -50,15 +53,16 @@ class Accel {
   public:
     /// Builds at once, on `threads` threads at most (0: all). Spheres are about the scene's origin. Meshes must outlive
     /// this.
+    /// visible: of each sphere; empty: all are to all rays.
     Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motions, std::vector<Sphere> spheres,
-          uint32_t threads);
+          std::vector<RayMask> visible, uint32_t threads);
     Accel(const Accel &) = delete;
     Accel &operator=(const Accel &) = delete;
 
     /// A ray that is not finite, or starts beyond what every instance can be reached from, meets nothing.
-    std::optional<Hit> intersect(const Ray &ray) const;
+    std::optional<Hit> intersect(const Ray &ray, RayKind kind) const;
     /// Whether anything stands before t_max. `ignored_sphere` is looked through (the light a shadow ray aims at).
-    bool occluded(const Ray &ray, uint32_t ignored_sphere = kNone) const;
+    bool occluded(const Ray &ray, RayKind kind, uint32_t ignored_sphere = kNone) const;
 
     /// intersect() and occluded() where without_bvh(), without a call.
     std::optional<Hit> intersect_few(const Ray &ray) const {
@@ -69,7 +73,9 @@ class Accel {
     }
 
     /// Nothing but a handful of spheres: trying them one by one is faster than a BVH and gives the same bits.
-    bool without_bvh() const { return instances_.empty() && spheres_.size() <= kFewSpheres; }
+    bool without_bvh() const { return instances_.empty() && spheres_.size() <= kFewSpheres && !hides_; }
+    /// Whether something is hidden from some rays.
+    bool hides() const { return hides_; }
     /// Of all but the meshes.
     size_t bytes() const;
     /// Those that move stand where they do when the shutter opens.
@@ -80,6 +86,7 @@ class Accel {
         const Instance &opening = instances_[index];
         return opening.motion == kNone ? opening : interpolate(motions_[opening.motion], time);
     }
+    RayMask visible_sphere(uint32_t i) const { return visible_.empty() ? kEveryRay : visible_[i]; }
 
   private:
     bool can_trace(const Ray &ray) const { // written so that NaN fails
@@ -107,13 +114,18 @@ class Accel {
 
     static constexpr size_t kFewSpheres = 8;
 
+    Bvh build(const std::vector<Bvh> &meshes, RayKind kind);
+    RTCScene scene(RayKind kind) const { return scenes_[size_t(kind)]; }
+
     std::vector<Instance> instances_;
     std::vector<InstanceMotion> motions_;
     std::vector<Sphere> spheres_;
+    std::vector<RayMask> visible_; ///< of the spheres; empty: all are to all rays
+    bool hides_ = false;
     float reach_;
     std::shared_ptr<const EmbreeDevice> device_;
-    Bvh bvh_;
-    RTCScene scene_; ///< bvh_'s
+    std::vector<Bvh> bvhs_;                    ///< one for all kinds of rays that see the same
+    std::array<RTCScene, kRayKinds> scenes_{}; ///< theirs, by kind of ray
     size_t bvh_bytes_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include "math/vec.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace glimmer {
@@ -27,6 +28,43 @@ struct Ray {
     Ray(const Vec3f &o, const Vec3f &d, ShutterTime t, float most = kInfinity)
         : origin(o), direction(d), t_max(most), time(t) {}
 };
+
+/// What a ray is for, as far as what may be hidden from it goes. A ray that goes straight through a surface keeps its
+/// kind.
+enum class RayKind : uint8_t {
+    camera,
+    diffuse, ///< that leaves a diffuse lobe on the side it came from
+    glossy,  ///< the same of any other lobe
+    transmission,
+    volume, ///< that the medium has scattered
+    shadow  ///< between a point and a sample of a light
+};
+inline constexpr size_t kRayKinds = 6;
+
+/// A set of ray kinds: a bit each, GLIMMER_RAY_CAMERA and so on.
+using RayMask = uint8_t;
+inline constexpr RayMask kEveryRay = (1 << kRayKinds) - 1;
+constexpr RayMask mask_of(RayKind kind) {
+    return RayMask(1 << unsigned(kind));
+}
+
+/// Whether rays of a kind meet a surface that is visible to these. What is visible to diffuse rays is so to rays in
+/// the medium too, as in Cycles.
+constexpr bool meets(RayKind kind, RayMask visible) {
+    return visible & (kind == RayKind::volume ? mask_of(kind) | mask_of(RayKind::diffuse) : mask_of(kind));
+}
+/// Whether every kind but the camera's own sees it.
+constexpr bool is_visible_beyond_camera(RayMask visible) {
+    return (visible | mask_of(RayKind::camera)) == kEveryRay;
+}
+/// Whether paths meet what shadow rays meet.
+constexpr bool shades_as_it_is_met(RayMask visible) {
+    const bool shades = visible & mask_of(RayKind::shadow);
+    for (const RayKind kind : {RayKind::diffuse, RayKind::glossy, RayKind::transmission, RayKind::volume})
+        if (meets(kind, visible) != shades)
+            return false;
+    return true;
+}
 
 /// A part of a ray, by distances from its origin.
 struct RayInterval {

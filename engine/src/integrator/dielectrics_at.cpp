@@ -12,7 +12,7 @@ constexpr int kMostSurfaces = 100000; // surfaces along the ray; ends the search
 
 } // namespace
 
-InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime time) {
+InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime time, RayKind kind) {
     InteriorStack stack;
     if (!scene.has_dielectrics)
         return stack;
@@ -25,7 +25,7 @@ InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime tim
     // An arbitrary direction, so that the ray does not run along walls or through edges of axis-aligned models.
     Ray ray{x, normalize(Vec3f(0.2672f, 0.5345f, 0.8018f)), time};
     for (int i = 0; i < kMostSurfaces; ++i) {
-        const auto hit = scene.accel->intersect(ray);
+        const auto hit = scene.accel->intersect(ray, kind);
         if (!hit)
             break;
         const Interaction surface = scene.interaction(ray, *hit);

@@ -9,6 +9,6 @@ namespace glimmer {
 
 /// The dielectric bodies around x, outermost first, found by following one ray out of the scene and noting every body
 /// that it leaves without having entered it.
-InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime time);
+InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime time, RayKind kind);
 
 } // namespace glimmer

@@ -12,4 +12,13 @@ inline float balance(float a, float b) {
     return 1 / (1 + b / a);
 }
 
+/// Cycles' weight, the power heuristic's, for scenes in which the two techniques do not find the same light, so that
+/// the weights are a part of what the picture shows (Scene::techniques_differ).
+inline float cycles_weight(float a, float b) {
+    if (b == 0)
+        return 1;
+    const float ratio = b / a;
+    return 1 / (1 + ratio * ratio);
+}
+
 } // namespace glimmer

@@ -3,12 +3,12 @@
 
 namespace glimmer {
 
-Rgb surface_transmittance(const Scene &scene, Ray ray, uint32_t ignored_sphere, TraceContext &rays) {
+Rgb surface_transmittance(const Scene &scene, Ray ray, RayKind kind, uint32_t ignored_sphere, TraceContext &rays) {
     thread_local ClosureArena arena; // apart from the caller's, whose closures must last
     Rgb left(1);
     while (ray.t_max > 0) {
         ++rays.rays;
-        const auto hit = scene.accel->intersect(ray);
+        const auto hit = scene.accel->intersect(ray, kind);
         if (!hit || (hit->instance == kNone && hit->primitive == ignored_sphere))
             break;
         Interaction surface = scene.interaction(ray, *hit);

@@ -11,6 +11,6 @@ namespace glimmer {
 /// transparencies, black if one is opaque. Surfaces that bound a dielectric are opaque to straight rays, however
 /// transparent: paths that pass one go on inside another body, and are what brings that light. ignored_sphere: the
 /// light that the ray aims at, where it ends. Asked only where Scene::has_transparency.
-Rgb surface_transmittance(const Scene &scene, Ray ray, uint32_t ignored_sphere, TraceContext &rays);
+Rgb surface_transmittance(const Scene &scene, Ray ray, RayKind kind, uint32_t ignored_sphere, TraceContext &rays);
 
 } // namespace glimmer

@@ -10,13 +10,13 @@ namespace glimmer {
 /// The part of what the transmittance of a ray promises that arrives at its end (t_max): none where an opaque surface
 /// stands in the way, what the others let straight through else. bvh: false where all of the scene is a few spheres.
 template <bool bvh = true>
-Rgb visibility(const Scene &scene, const Ray &ray, TraceContext &rays, uint32_t ignored_sphere = kNone) {
+Rgb visibility(const Scene &scene, const Ray &ray, RayKind kind, TraceContext &rays, uint32_t ignored_sphere = kNone) {
     ++rays.rays;
     const bool hidden =
-        bvh ? scene.accel->occluded(ray, ignored_sphere) : scene.accel->occluded_by_few(ray, ignored_sphere);
+        bvh ? scene.accel->occluded(ray, kind, ignored_sphere) : scene.accel->occluded_by_few(ray, ignored_sphere);
     if (!hidden)
         return Rgb(1);
-    return scene.has_transparency ? surface_transmittance(scene, ray, ignored_sphere, rays) : Rgb(0);
+    return scene.has_transparency ? surface_transmittance(scene, ray, kind, ignored_sphere, rays) : Rgb(0);
 }
 
 } // namespace glimmer

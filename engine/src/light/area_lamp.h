@@ -6,13 +6,34 @@
 #include "light/interface.h"
 #include "light/shapes/ellipse.h"
 #include "light/shapes/rectangle.h"
+#include "light/shapes/sphere.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace glimmer {
 
 struct AreaLamp {
     Vec3d center, half_x, half_y, normal; ///< shines along the normal
     bool ellipse;
-    Rgb radiance;
+    Rgb radiance;                            ///< along the normal, but for the spread
+    double tan_spread = 0, spread_scale = 0; ///< see spread(); 0: it shines to all sides
+
+    /// Makes it shine no farther from its normal than half of a full angle in degrees, above 0 and below 180: as if
+    /// slats stood before it, with the power that it would have without.
+    void set_spread(double angle_degrees) {
+        const double half = angle_degrees * kPiDouble / 360;
+        tan_spread = std::tan(half);
+        // The integral of cos (1 - tan / tan_spread) sin over the angle to the normal is half of 1 / spread_scale.
+        spread_scale = half < 0.01 ? 3 / (half * half) : 1 / (1 - half / tan_spread);
+    }
+    /// Factor of the radiance at the cosine of the angle to the normal.
+    float spread(double cosine) const {
+        if (tan_spread == 0)
+            return 1;
+        const double tangent = std::sqrt(std::max(1 - cosine * cosine, 0.0)) / cosine;
+        return float(std::max((1 - tangent / tan_spread) * spread_scale, 0.0));
+    }
 
     static constexpr LightTraits traits{.intersectable = true};
 
@@ -30,7 +51,8 @@ inline std::optional<LightSample> sample(const AreaLamp &light, const Vec3f &x, 
         light.ellipse ? sample_ellipse(light.ellipse_from(at), u) : sample_rectangle(light.rectangle_from(at), u);
     if (!s)
         return std::nullopt;
-    return LightSample{s->wi, s->distance, light.radiance, s->pdf, false};
+    const Rgb radiance = light.radiance * light.spread(-dot(Vec3d(s->wi), light.normal));
+    return LightSample{s->wi, s->distance, radiance, s->pdf, false};
 }
 
 inline float pdf(const AreaLamp &light, const Vec3f &x, const Vec3f &direction, const LightHit &) {
@@ -52,7 +74,7 @@ inline std::optional<LampHit> intersect(const AreaLamp &light, const Ray &ray) {
                  y = dot(on, light.half_y) / length_squared(light.half_y);
     if (light.ellipse ? x * x + y * y > 1 : std::abs(x) > 1 || std::abs(y) > 1)
         return std::nullopt;
-    return LampHit{float(t), light.radiance};
+    return LampHit{float(t), light.radiance * light.spread(-cosine)};
 }
 
 inline Emission emit(const AreaLamp &light, bool, Vec2f u_position, Vec2f u_direction, float) {
@@ -64,7 +86,15 @@ inline Emission emit(const AreaLamp &light, bool, Vec2f u_position, Vec2f u_dire
         area *= kPiDouble / 4;
     }
     const Vec3f position(light.center + light.half_x * x + light.half_y * y);
-    return emit_from_surface(position, Vec3f(light.normal), 0, light.radiance, area, u_direction);
+    if (light.tan_spread == 0)
+        return emit_from_surface(position, Vec3f(light.normal), 0, light.radiance, area, u_direction);
+    // Cosine-distributed within the spread.
+    const double sine2 = light.tan_spread * light.tan_spread / (1 + light.tan_spread * light.tan_spread);
+    const double sine = std::sqrt(double(u_direction.x) * sine2), phi = 2 * kPiDouble * double(u_direction.y);
+    const double cosine = std::sqrt(1 - sine * sine);
+    const Vec3d direction = about_axis(light.normal, sine * std::cos(phi), sine * std::sin(phi), cosine);
+    return {{position, Vec3f(direction), {}},
+            light.radiance * (light.spread(cosine) * float(kPiDouble * area * sine2))};
 }
 
 inline LightBound bound(const AreaLamp &light) {

@@ -26,7 +26,14 @@ struct LightTraits {
     bool infinite = false;       ///< met by rays that leave the scene
     bool in_bvh = false;         ///< its surface is one of the scene's, which rays meet like any other
     bool intersectable = false;  ///< a see-through lamp: met only where an integrator asks for it
-    bool camera_visible = false; ///< the camera's own rays meet it
+    bool camera_visible = false; ///< the camera's own rays meet it, if LightFlags say nothing else
+};
+
+/// What a scene may ask of a light beyond its kind.
+struct LightFlags {
+    RayMask visible = kEveryRay;  ///< rays that meet it, by the lobes that they left; at these it is sampled too
+    bool shadows = true;          ///< false: nothing stands between it and a point that samples it
+    uint32_t max_bounces = kNone; ///< it is sampled no more where the path has scattered more often before
 };
 
 /// A direction towards a light and what comes from there if nothing stands between (no transmittance).
@@ -38,6 +45,8 @@ struct LightSample {
     bool delta;                      ///< cannot be met by chance
     uint32_t ignored_sphere = kNone; ///< the light itself, for the shadow ray
     float error = 0, facing = 1;     ///< of a shining triangle: of its positions, and |cos| there
+    RayMask visible = kEveryRay;     ///< LightFlags::visible
+    bool shadows = true;             ///< LightFlags::shadows
 };
 
 /// Where a ray has met a light.
@@ -59,6 +68,7 @@ struct LampHit {
 struct Emission {
     Ray ray;
     Rgb power;
+    float dark = 0; ///< length before the ray's beginning in which the light is hidden and absorbed, but not scattered
 };
 
 /// A sphere around the light and about what it shines with: intensity for a finite light, irradiance for the sun and

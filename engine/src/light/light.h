@@ -5,6 +5,7 @@
 #pragma once
 
 #include "light/area_lamp.h"
+#include "light/disk_lamp.h"
 #include "light/environment_light.h"
 #include "light/interface.h"
 #include "light/mesh_light.h"
@@ -12,12 +13,14 @@
 #include "light/sphere_lamp.h"
 #include "light/sphere_light.h"
 #include "light/sun_lamp.h"
+#include "light/tangent_sun_lamp.h"
 
 #include <variant>
 
 namespace glimmer {
 
-using Light = std::variant<SphereLight, MeshLight, PointLamp, SphereLamp, AreaLamp, SunLamp, EnvironmentLight>;
+using Light = std::variant<SphereLight, MeshLight, PointLamp, SphereLamp, DiskLamp, AreaLamp, SunLamp, TangentSunLamp,
+                           EnvironmentLight>;
 
 /// What interface.h asks of a kind.
 template <class L>
@@ -37,9 +40,8 @@ concept LightKind = requires(const L &light, const Vec3f &v, Vec2f u, const Ligh
     requires L::traits.infinite || requires {
         { emit(light, false, u, u, 0.0f) } -> std::same_as<Emission>;
     };
-    // Rays meet a light in one way, or not at all; the camera's own rays ask for no lamps.
+    // Rays meet a light in one way, or not at all.
     requires int(L::traits.delta) + L::traits.infinite + L::traits.in_bvh + L::traits.intersectable == 1;
-    requires !(L::traits.intersectable && L::traits.camera_visible);
 };
 
 template <class>

@@ -41,7 +41,8 @@ float probability_by(uint32_t n, uint32_t light, const Weigh &weigh) {
 
 } // namespace
 
-LightSet::LightSet(std::vector<Light> lights) : lights_(std::move(lights)) {
+LightSet::LightSet(std::vector<Light> lights, std::vector<LightFlags> flags)
+    : lights_(std::move(lights)), flags_(std::move(flags)) {
     std::vector<double> strengths;
     for (uint32_t i = 0; i < lights_.size(); ++i) {
         const Light &light = lights_[i];

@@ -24,11 +24,13 @@ class LightSet {
     static constexpr uint32_t kWeighedLights = 32;
 
     LightSet() = default;
-    explicit LightSet(std::vector<Light> lights);
+    /// flags: of each light.
+    LightSet(std::vector<Light> lights, std::vector<LightFlags> flags);
 
     uint32_t size() const { return uint32_t(lights_.size()); }
     const Light &operator[](uint32_t i) const { return lights_[i]; }
     const LightBound &bound(uint32_t i) const { return bounds_[i]; }
+    const LightFlags &flags(uint32_t i) const { return flags_[i]; }
 
     /// By index, what an integrator must ask for besides surfaces: the see-through lamps that rays can meet, and the
     /// lights at infinity.
@@ -66,6 +68,7 @@ class LightSet {
 
     std::vector<Light> lights_;
     std::vector<LightBound> bounds_;
+    std::vector<LightFlags> flags_;
     std::vector<uint32_t> intersectable_lamps_, infinite_, of_sphere_;
     uint32_t mesh_light_ = kNone;
     AliasTable by_strength_;

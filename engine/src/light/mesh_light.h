@@ -17,7 +17,8 @@ struct MeshLight {
     struct Triangle {
         std::array<Vec3d, 3> vertices; ///< float64: a light a millionth of its distance wide keeps its area
         Rgb radiance;
-        float error; ///< of positions on it
+        float error;                 ///< of positions on it
+        RayMask visible = kEveryRay; ///< of its object
     };
     std::vector<Triangle> triangles;
     AliasTable choice;
@@ -54,6 +55,7 @@ inline std::optional<LightSample> sample(const MeshLight &light, const Vec3f &x,
     const Vec3d normal = cross(b - a, c - a);
     const auto cosine = float(std::abs(dot(normal, Vec3d(s->wi))) / length(normal));
     LightSample out{s->wi, s->distance, t.radiance, s->pdf * choice.pmf, false, kNone, t.error, cosine};
+    out.visible = t.visible;
     if (!light.places.empty()) {
         const Vec3d p = Vec3d(s->wi) * double(s->distance) - a, e1 = b - a, e2 = c - a;
         const double n2 = dot(normal, normal);

@@ -70,9 +70,10 @@ bool TileRenderer::render_pixel(Work &work, uint32_t x, uint32_t y, const Rectan
                                         : ShutterTime(sampler.stratified_1d(dimension(Dimension::time)));
         const CameraRay camera = sample_camera_ray(scene_, x, y, sampler.stratified_2d(dimension(Dimension::film)),
                                                    sampler.stratified_2d(dimension(Dimension::lens)), time);
-        const FilmSample value = integrator_.sample(camera, sampler, shared.get(), work.trace);
+        FilmSample value = integrator_.sample(camera, sampler, shared.get(), work.trace);
         if (value.unfinished && stop_.load(std::memory_order_relaxed))
             return false;
+        value.expose(scene_.film.exposure);
         work.faults.unfinished += value.unfinished ? 1 : 0;
         if (is_finite(value.radiance()))
             work.tile.add(tile_x, tile_y, wave, value);

@@ -88,6 +88,7 @@ void SceneBuilder::build_camera_and_film() {
     film.crop_width = whole ? f.width : f.crop[2] - f.crop[0];
     film.crop_height = whole ? f.height : f.crop[3] - f.crop[1];
     film.filter_width = f.filter_width;
+    film.exposure = f.exposure;
     if (f.filter == GLIMMER_BLACKMAN_HARRIS)
         film.filter_inverse = invert_blackman_harris();
     else

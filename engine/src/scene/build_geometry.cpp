@@ -74,6 +74,12 @@ bool SceneBuilder::material_may_shine(uint32_t material) const {
     return may_shine(m, m.bindings);
 }
 
+void SceneBuilder::note_visibility(RayMask visible, bool holdout) {
+    scene_.has_visibility |= visible != kEveryRay || holdout;
+    scene_.techniques_differ |= !shades_as_it_is_met(visible);
+    scene_.hides_beyond_camera |= !is_visible_beyond_camera(visible);
+}
+
 void SceneBuilder::build_geometry() {
     std::vector<Instance> instances;
     std::vector<InstanceMotion> motions;
@@ -98,6 +104,8 @@ void SceneBuilder::build_geometry() {
                 continue;
             }
             instance.object = index;
+            instance.visible = object.visible;
+            instance.holdout = object.holdout;
             instance.object_index =
                 object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
             if (object.moves()) {
@@ -133,6 +141,8 @@ void SceneBuilder::build_geometry() {
     scene_.moves = !motions.empty() || scene_.camera.moves();
 
     std::vector<Sphere> spheres;
+    std::vector<RayMask> visible;
+    std::vector<bool> holdouts;
     for (const SpheresDescription &group : description_.spheres) {
         const Material &material = scene_.materials[group.material];
         if (material.null) {
@@ -144,9 +154,20 @@ void SceneBuilder::build_geometry() {
             spheres.push_back({group.centers[i] - origin_, group.radii.size() == 1 ? group.radii[0] : group.radii[i]});
             scene_.sphere_materials.push_back(group.material);
             scene_.sphere_indices.push_back(group.object_index);
+            visible.push_back(group.visible);
+            holdouts.push_back(group.holdout);
         }
     }
-    scene_.accel = std::make_unique<Accel>(std::move(instances), std::move(motions), std::move(spheres), threads_);
+    for (const Instance &instance : instances)
+        note_visibility(instance.visible, instance.holdout);
+    for (size_t i = 0; i < spheres.size(); ++i)
+        note_visibility(visible[i], holdouts[i]);
+    if (std::ranges::find(holdouts, true) != holdouts.end())
+        scene_.sphere_holdouts = std::move(holdouts);
+    if (std::ranges::all_of(visible, [](RayMask mask) { return mask == kEveryRay; }))
+        visible.clear();
+    scene_.accel = std::make_unique<Accel>(std::move(instances), std::move(motions), std::move(spheres),
+                                           std::move(visible), threads_);
 }
 
 Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {

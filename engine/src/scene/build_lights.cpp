@@ -29,7 +29,19 @@ std::optional<SpotCone> cone_of(const LightDescription &light) {
     const double cos_half = std::cos(light.angle * kPiDouble / 360);
     cone.cos_half = float(cos_half);
     cone.smooth = float((1 - cos_half) * light.blend);
+    cone.times_cosine = light.times_cosine != 0;
     return cone;
+}
+
+/// A point lamp or a spot that has a size.
+Light round_lamp(const LightDescription &light, const Vec3d &position, const Rgb &radiance) {
+    if (light.disk)
+        return DiskLamp{position, light.radius, radiance, cone_of(light)};
+    return SphereLamp{{position, light.radius}, radiance, cone_of(light)};
+}
+
+LightFlags flags_of(const LightDescription &light) {
+    return {RayMask(light.visible | mask_of(RayKind::shadow)), light.shadows != 0, light.max_bounces};
 }
 
 /// Where the instance, as it is in float32, has a point of its mesh: rounded there, the edges of a small and distant
@@ -74,21 +86,22 @@ Rgb distribute(EnvironmentLight &light) {
 
 } // namespace
 
-void SceneBuilder::add_sphere_lights(std::vector<Light> &lights) const {
+void SceneBuilder::add_sphere_lights(LightList &lights) const {
     const std::vector<Sphere> &spheres = scene_.accel->spheres();
     for (uint32_t i = 0; i < spheres.size(); ++i) {
         const uint32_t m = scene_.sphere_materials[i];
+        const LightFlags flags{.visible = scene_.accel->visible_sphere(i)};
         if (scene_.materials[m].varying != Material::kConstant) {
             if (!shines_varying(m))
                 continue;
             const Rgb mean = shaders()->mean_of_sphere(i);
             scene_.materials.set_mean_emission(m, max_component(mean) > kDimmest ? mean : Rgb(kDimmest));
-            lights.push_back(SphereLight{spheres[i], scene_.materials.bounds(m).emission, i, shaders()});
+            lights.add(SphereLight{spheres[i], scene_.materials.bounds(m).emission, i, shaders()}, flags);
             continue;
         }
         const Rgb &emission = scene_.materials.bounds(m).emission;
         if (!is_black(emission))
-            lights.push_back(SphereLight{spheres[i], emission, i});
+            lights.add(SphereLight{spheres[i], emission, i}, flags);
     }
 }
 
@@ -107,7 +120,7 @@ Rgb SceneBuilder::mean_for_choice(uint32_t instance, uint32_t triangle) const {
     return max_component(mean) > kDimmest ? mean : Rgb(kDimmest);
 }
 
-void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
+void SceneBuilder::add_mesh_light(LightList &lights) const {
     MeshLight light;
     std::vector<double> power;
     const std::vector<Instance> &instances = scene_.accel->instances();
@@ -139,6 +152,7 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
             const auto &[a, b, c] = out.vertices;
             const double area = 0.5 * length(cross(b - a, c - a));
             out.radiance = emission(t);
+            out.visible = instance.visible;
             out.error = kSampledPointRounding * (local + max_abs(instance.translation));
             const double strength = area * double(mean_component(out.radiance));
             if (!(strength > 0)) {
@@ -163,16 +177,17 @@ void SceneBuilder::add_mesh_light(std::vector<Light> &lights) const {
     light.varying = shaders();
     light.center = Vec3f((low + high) * 0.5);
     light.radius = float(length(high - low) * 0.5);
-    lights.push_back(std::move(light));
+    lights.add(std::move(light), {});
 }
 
-void SceneBuilder::add_lamps(std::vector<Light> &lights) {
+void SceneBuilder::add_lamps(LightList &lights) {
     for (const LightDescription &l : description_.lights) {
         const Rgb color = to_rgb(l.color);
         if (is_black(color)) {
             ++black_lights_;
             continue;
         }
+        const LightFlags flags = flags_of(l);
         const Vec3d position = to_vec(l.position) - origin_;
         switch (l.type) {
         case GLIMMER_POINT:
@@ -180,24 +195,34 @@ void SceneBuilder::add_lamps(std::vector<Light> &lights) {
             // So small that its radiance is beyond float32, it is a point.
             if (const double per_intensity = 1 / (kPiDouble * l.radius * l.radius);
                 l.radius > 0 && per_intensity * double(max_component(color)) < 1e38)
-                lights.push_back(SphereLamp{{position, l.radius}, color * float(per_intensity), cone_of(l)});
+                lights.add(round_lamp(l, position, color * float(per_intensity)), flags);
             else
-                lights.push_back(PointLamp{Vec3f(position), color, cone_of(l)});
+                lights.add(PointLamp{Vec3f(position), color, cone_of(l)}, flags);
             break;
         case GLIMMER_SUN: {
+            if (l.disk && l.angle > 0) {
+                lights.add(TangentSunLamp(to_vec(l.direction), l.angle, color), flags);
+                break;
+            }
             SunLamp sun;
             sun.disk = SunDisk(to_vec(l.direction), l.angle);
             sun.irradiance = color;
             if (!sun.disk.is_delta())
                 sun.radiance = color * float(1 / sun.disk.projected_solid_angle());
-            lights.push_back(sun);
+            lights.add(sun, flags);
             break;
         }
         case GLIMMER_AREA: {
             const Affine to_world = affine_from_rows(l.to_world);
-            lights.push_back(AreaLamp{to_world.translation - origin_, to_world.linear.column(0) * (l.size[0] * 0.5),
-                                      to_world.linear.column(1) * (l.size[1] * 0.5),
-                                      -normalize(to_world.linear.column(2)), l.ellipse != 0, color});
+            AreaLamp area{to_world.translation - origin_,
+                          to_world.linear.column(0) * (l.size[0] * 0.5),
+                          to_world.linear.column(1) * (l.size[1] * 0.5),
+                          -normalize(to_world.linear.column(2)),
+                          l.ellipse != 0,
+                          color};
+            if (l.spread < 180)
+                area.set_spread(l.spread);
+            lights.add(area, flags);
             break;
         }
         }
@@ -205,7 +230,7 @@ void SceneBuilder::add_lamps(std::vector<Light> &lights) {
 }
 
 /// The program's radiance, which is sampled by a picture of it.
-void SceneBuilder::add_sky(std::vector<Light> &lights) {
+void SceneBuilder::add_sky(LightList &lights) {
     EnvironmentLight light;
     light.varying = shaders();
     light.color = Rgb(1);
@@ -225,10 +250,10 @@ void SceneBuilder::add_sky(std::vector<Light> &lights) {
         ++black_lights_;
         return;
     }
-    lights.push_back(std::move(light));
+    lights.add(std::move(light), {.visible = description_.environment_visible});
 }
 
-void SceneBuilder::add_environment(std::vector<Light> &lights) {
+void SceneBuilder::add_environment(LightList &lights) {
     if (description_.sky) {
         add_sky(lights);
         return;
@@ -252,16 +277,27 @@ void SceneBuilder::add_environment(std::vector<Light> &lights) {
         ++black_lights_;
         return;
     }
-    lights.push_back(std::move(light));
+    lights.add(std::move(light), {.visible = description_.environment_visible});
+}
+
+/// usual: which rays see a light of its kind where nobody has said anything.
+void SceneBuilder::note_flags(const LightFlags &flags, RayMask usual) {
+    const bool limits = !flags.shadows || flags.max_bounces != kNone;
+    scene_.has_visibility |= flags.visible != usual || limits;
+    scene_.techniques_differ |= !is_visible_beyond_camera(flags.visible) || limits;
 }
 
 void SceneBuilder::build_lights() {
-    std::vector<Light> lights;
+    LightList lights;
     add_sphere_lights(lights);
     add_mesh_light(lights);
     add_lamps(lights);
     add_environment(lights);
-    scene_.lights = LightSet(std::move(lights));
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        const bool seen = traits(lights.lights[i]).camera_visible;
+        note_flags(lights.flags[i], seen ? kEveryRay : RayMask(kEveryRay & ~mask_of(RayKind::camera)));
+    }
+    scene_.lights = LightSet(std::move(lights.lights), std::move(lights.flags));
 }
 
 } // namespace glimmer

@@ -9,6 +9,17 @@
 
 namespace glimmer {
 
+/// The lights, and what is asked of each.
+struct LightList {
+    std::vector<Light> lights;
+    std::vector<LightFlags> flags;
+
+    void add(Light light, const LightFlags &asked) {
+        lights.push_back(std::move(light));
+        flags.push_back(asked);
+    }
+};
+
 class SceneBuilder {
   public:
     /// threads: the most that build (0: all).
@@ -27,16 +38,18 @@ class SceneBuilder {
     ShaderScene *shaders() const; ///< null: nothing varies
     bool shines_varying(uint32_t material) const;
     Rgb mean_for_choice(uint32_t instance, uint32_t triangle) const;
-    void add_sky(std::vector<Light> &lights);
+    void add_sky(LightList &lights);
     /// interior: the index of the body that the material bounds, 0 for none.
     MaterialBounds bounds_of_varying(uint32_t material, float &interior) const;
     void use(uint32_t material);
     bool material_may_shine(uint32_t material) const; ///< or a part of it
+    void note_flags(const LightFlags &flags, RayMask usual);
+    void note_visibility(RayMask visible, bool holdout);
     std::shared_ptr<const Mesh> without_absent(const ObjectDescription &object) const;
-    void add_sphere_lights(std::vector<Light> &lights) const;
-    void add_mesh_light(std::vector<Light> &lights) const;
-    void add_lamps(std::vector<Light> &lights);
-    void add_environment(std::vector<Light> &lights);
+    void add_sphere_lights(LightList &lights) const;
+    void add_mesh_light(LightList &lights) const;
+    void add_lamps(LightList &lights);
+    void add_environment(LightList &lights);
 
     const SceneDescription &description_;
     Scene &scene_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geometry/mesh.h"
+#include "geometry/ray.h"
 #include "glimmer.h"
 #include "math/affine.h"
 #include "shading/material_description.h"
@@ -33,6 +34,8 @@ struct ObjectDescription {
     /// The instances at moments evenly spaced from when the shutter opens to when it closes; none: they are still.
     std::vector<std::vector<Affine>> motion;
     bool moves() const { return !motion.empty(); }
+    RayMask visible = kEveryRay;
+    bool holdout = false;
 };
 
 struct SpheresDescription {
@@ -41,6 +44,8 @@ struct SpheresDescription {
     std::vector<double> radii; ///< one each, or one for all
     uint32_t material = 0;
     uint32_t object_index = 0;
+    RayMask visible = kEveryRay;
+    bool holdout = false;
 };
 
 struct EnvironmentDescription {
@@ -67,6 +72,7 @@ struct SceneDescription {
     std::vector<LightDescription> lights;
     std::optional<EnvironmentDescription> environment;
     std::optional<ParameterBinding> sky; ///< the program that gives the environment's radiance
+    RayMask environment_visible = kEveryRay;
     std::optional<MediumDescription> medium;
     std::optional<glimmer_camera_desc> camera;
     std::vector<Affine> camera_motion; ///< at moments evenly spaced over the shutter, in place of to_world

@@ -21,6 +21,7 @@ struct FilmSettings {
     uint32_t width = 1, height = 1;
     uint32_t crop_x = 0, crop_y = 0, crop_width = 1, crop_height = 1;
     float filter_width = 1;            ///< pixels
+    float exposure = 1;                ///< factor of all light
     std::vector<float> filter_inverse; ///< inverse CDF over [0, 1] -> [-0.5, 0.5] of the width; empty: box
 };
 
@@ -38,6 +39,13 @@ class Scene {
     Materials materials;
     std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot
     std::vector<uint32_t> sphere_materials, sphere_indices;
+    std::vector<bool> sphere_holdouts; ///< empty: there are none
+    /// Whether the camera sees nothing where it meets this.
+    bool is_holdout(const Hit &hit) const {
+        if (hit.instance != kNone)
+            return accel->instances()[hit.instance].holdout;
+        return !sphere_holdouts.empty() && sphere_holdouts[hit.primitive];
+    }
     std::optional<Medium> medium; ///< around all bodies
     /// The same, or null.
     const Medium *outside() const { return medium ? &*medium : nullptr; }
@@ -48,9 +56,14 @@ class Scene {
     bool has_dielectrics = false;  ///< bodies of glass
     bool has_transmission = false; ///< surfaces that scatter light to their other side; glass among them
     bool has_transparency = false; ///< surfaces that let some light straight through
-    float max_value = 0;           ///< largest of the materials in use (see MaterialBounds)
-    Vec3f bounds_center;           ///< of all surfaces and finite lights
-    float bounds_radius = 0;       ///< 0: there are none
+    bool has_visibility = false;   ///< objects, lights or an environment that some rays do not see; holdouts
+    /// Shadow rays and paths do not meet the same, or not the same lights: what one of the two finds, the other may
+    /// not, and how they share the light shows in the picture (Cycles' weights, integrator/mis.h).
+    bool techniques_differ = false;
+    bool hides_beyond_camera = false; ///< something is hidden from other rays than the camera's
+    float max_value = 0;              ///< largest of the materials in use (see MaterialBounds)
+    Vec3f bounds_center;              ///< of all surfaces and finite lights
+    float bounds_radius = 0;          ///< 0: there are none
     std::vector<Warning> warnings;
     std::vector<std::string> left_out;
     double build_seconds = 0;

@@ -198,6 +198,10 @@ POINT, SPOT, SUN, AREA = range(4)
         ({"type": SUN, "angle": -1}, "angle"),
         ({"type": AREA, "size": (0, 1)}, "size"),
         ({"type": AREA, "size": (1, NAN)}, "size"),
+        ({"type": AREA, "spread": 0}, "spread"),
+        ({"type": AREA, "spread": NAN}, "spread"),
+        ({"type": AREA, "spread": 181}, "spread"),
+        ({"type": POINT, "visible": 64}, "visible"),
         ({"type": AREA, "to_world": list(np.diag([2.0, 1, 1, 1]).ravel())}, "to_world"),
     ],
 )
@@ -221,6 +225,7 @@ def test_bad_environment_and_medium(scene: c_void_p) -> None:
     mesh = new_mesh()
     refused(library.glimmer_scene_set_environment(scene, (c_float * 3)(), mesh, IDENTITY), ARGUMENT, "image")
     library.glimmer_mesh_destroy(mesh)
+    refused(library.glimmer_scene_set_environment_visible(scene, 64), ARGUMENT, "environment: visible")
     good = three(0, 0.1, 0.2)
     for bad in (three(-1, 0, 0), three(0, NAN, 0), three(0, 0, INFINITY)):
         refused(library.glimmer_scene_set_medium(scene, bad, good, 0), ARGUMENT, "sigma_a")

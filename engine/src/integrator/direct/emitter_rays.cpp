@@ -42,8 +42,8 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterT
         const Vec2f u_pixel{(float(i % side) + u.x) / strata, (float(i / side) + u.y) / strata};
         const Ray ray = sample_camera_ray(scene_, pixel_x, pixel_y, u_pixel, sampler.next_2d(), time).ray;
         ++trace.rays;
-        const auto hit = scene_.accel->intersect(ray);
-        if (!hit || hit->instance != kNone)
+        const auto hit = scene_.accel->intersect(ray, RayKind::camera);
+        if (!hit || hit->instance != kNone || scene_.is_holdout(*hit))
             continue;
         Interaction surface = scene_.interaction(ray, *hit);
         arena.clear();

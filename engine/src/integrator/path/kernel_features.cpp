@@ -13,6 +13,7 @@ KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool s
     f.bvh = !scene.accel->without_bvh();
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         f.other_lights |= !is_emissive_sphere(scene.lights[i]);
+    f.visibility = scene.has_visibility;
     f.estimator_flags = !(flags == kAllEstimators);
     return f;
 }

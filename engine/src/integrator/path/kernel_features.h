@@ -22,6 +22,7 @@ struct KernelFeatures {
     bool transparency = false;    ///< surfaces that let some light straight through
     bool bvh = false;             ///< there are meshes, or more spheres than are tried one by one
     bool other_lights = false;    ///< lights other than emissive spheres
+    bool visibility = false;      ///< objects, lights or an environment that some rays do not see
     bool estimator_flags = false; ///< not all of EstimatorFlags are set
 
     /// Whether paths can meet a light by chance that light sampling could have found.
@@ -34,7 +35,7 @@ struct FeatureText {
     const char *name; ///< for benchmarks
     const char *left_out;
 };
-inline constexpr std::array<FeatureText, 8> kFeatureTexts{{
+inline constexpr std::array<FeatureText, 9> kFeatureTexts{{
     {&KernelFeatures::medium, "medium", "no fog: no distance sampling, no transmittance"},
     {&KernelFeatures::medium_walks, "walks in the medium", ""},
     {&KernelFeatures::surfaces, "surfaces", "no surface that scatters: no scattering at surfaces"},
@@ -43,9 +44,10 @@ inline constexpr std::array<FeatureText, 8> kFeatureTexts{{
     {&KernelFeatures::bvh, "BVH", "a few spheres alone: no BVH"},
     {&KernelFeatures::other_lights, "other lights",
      "no lights but spheres that shine: no lamps, shining meshes, suns or sky"},
+    {&KernelFeatures::visibility, "ray visibility", ""},
     {&KernelFeatures::estimator_flags, "estimator flags", ""},
 }};
-inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true};
+inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true, true};
 
 /// Whether a kernel with the features `has` can render what needs `needed`.
 constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {

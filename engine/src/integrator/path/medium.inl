@@ -27,6 +27,8 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
     }
     for (uint32_t i = 0; i < choices(several); ++i) {
         const LightChoice choice = choose(i, several, origin, direction, end);
+        if (is_beyond_bounces(choice.index, state.depth))
+            continue;
         if (scene().lights.bound(choice.index).infinite)
             continue; // nothing comes through an endless medium
         const EquiangularTable table = equiangular_table(choice.index, origin, direction, end);
@@ -38,7 +40,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
         const auto light =
             sample_light(choice.index, x,
                          camera ? sampler_.stratified_2d(dimension(Dimension::segment_light, i)) : sampler_.next_2d());
-        if (!light)
+        if (!light || !lights_medium(*light))
             continue;
         const float p_phase = phase.eval(direction, light->direction);
         const Rgb unshadowed =
@@ -114,6 +116,7 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
                      x,
                      {state.ray.origin, state.ray.direction, end, t, pdf}};
     next.passed = {};
+    set_kind(next, RayKind::volume);
     ++next.depth;
     ++next.scatter;
     next.specular_depth = 0;
@@ -129,7 +132,7 @@ void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, c
         return;
     const LightChoice choice = choose(0, false, x);
     const auto light = sample_light(choice.index, x, sampler_.next_2d());
-    if (!light)
+    if (!light || !lights_medium(*light) || is_beyond_bounces(choice.index, state.depth))
         return;
     const float p_phase = medium.phase().eval(state.ray.direction, light->direction);
     const Rgb unshadowed = medium.transmittance({x, light->direction, state.ray.time}, light->distance) *

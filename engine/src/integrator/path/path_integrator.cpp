@@ -15,7 +15,7 @@ class PathIntegrator final : public Integrator {
   public:
     PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &flags, bool full_kernel)
         : scene_(scene), limits_(limits), flags_(flags),
-          around_camera_(dielectrics_at(scene, scene.camera.start_region().center, kMidShutter)),
+          around_camera_(dielectrics_at(scene, scene.camera.start_region().center, kMidShutter, RayKind::camera)),
           emitter_rays_(scene,
                         around_camera_.empty() && !rays_start_apart() ? tuning::kEmitterRays * flags.emitter_rays : 0) {
         if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
@@ -44,8 +44,9 @@ class PathIntegrator final : public Integrator {
                                   light_vertices, camera.pixel_x, camera.pixel_y, primary_weight};
         FilmSample result =
             rays_start_apart()
-                ? kernel_->sample(context, camera.ray, dielectrics_at(scene_, camera.ray.origin, camera.ray.time),
-                                  sampler, trace)
+                ? kernel_->sample(context, camera.ray,
+                                  dielectrics_at(scene_, camera.ray.origin, camera.ray.time, RayKind::camera), sampler,
+                                  trace)
                 : kernel_->sample(context, camera.ray, around_camera_, sampler, trace);
         if (extra_rays)
             result.emission +=

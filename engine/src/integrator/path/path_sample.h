@@ -172,10 +172,29 @@ class PathSample {
         return float(choices(several)) * probability;
     }
     std::optional<LightSample> sample_light(uint32_t light, const Vec3f &x, Vec2f u) const {
-        if constexpr (F.other_lights)
+        if constexpr (F.visibility) {
+            auto s = glimmer::sample_light(scene().lights[light], x, u);
+            if (s) {
+                const LightFlags &own = scene().lights.flags(light);
+                s->visible &= own.visible;
+                s->shadows = own.shadows;
+            }
+            return s;
+        } else if constexpr (F.other_lights) {
             return glimmer::sample_light(scene().lights[light], x, u);
-        else
+        } else {
             return sample_emissive_sphere(scene().lights[light], x, u);
+        }
+    }
+    /// f |cos_i| towards a light, of the lobes that it is visible to.
+    static Rgb eval_for(const LightSample &light, const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
+        if (F.visibility && !is_visible_beyond_camera(light.visible))
+            return eval(bsdf, wo, wi, light.visible & mask_of(RayKind::diffuse),
+                        light.visible & mask_of(RayKind::glossy), light.visible & mask_of(RayKind::transmission));
+        return eval(bsdf, wo, wi);
+    }
+    static bool lights_medium(const LightSample &light) {
+        return !F.visibility || light.visible & mask_of(RayKind::volume);
     }
     EquiangularTable equiangular_table(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
         const LightBound &b = scene().lights.bound(light);
@@ -257,10 +276,39 @@ class PathSample {
 
     // Rays and roulette
 
-    std::optional<Hit> intersect(const Ray &ray) {
+    std::optional<Hit> intersect(const Ray &ray, RayKind kind) {
         ++trace_.rays;
-        return F.bvh ? scene().accel->intersect(ray) : scene().accel->intersect_few(ray);
+        return F.bvh ? scene().accel->intersect(ray, kind) : scene().accel->intersect_few(ray);
     }
+    static RayKind kind_of(const State &state) {
+        if constexpr (F.visibility)
+            return state.kind;
+        else
+            return RayKind::camera; // as good as any
+    }
+    static void set_kind(State &state, RayKind kind) {
+        if constexpr (F.visibility)
+            state.kind = kind;
+    }
+    static RayKind kind_of(const BsdfSample &s) {
+        return s.transmitted ? RayKind::transmission : s.diffuse ? RayKind::diffuse : RayKind::glossy;
+    }
+    /// Whether what the camera sees here is a hole in the picture.
+    bool is_held_out(const State &state, const Hit &hit) const {
+        return F.visibility && kind_of(state) == RayKind::camera && scene().is_holdout(hit);
+    }
+    /// Whether the segment may meet a light that is no surface.
+    bool sees_light(const State &state, uint32_t light) const {
+        if constexpr (F.visibility)
+            return scene().lights.flags(light).visible & mask_of(state.kind);
+        else
+            return state.depth > 0 || traits(scene().lights[light]).camera_visible;
+    }
+    /// Whether light sampling with `depth` vertices before leaves a light out.
+    bool is_beyond_bounces(uint32_t light, uint32_t depth) const {
+        return F.visibility && depth > scene().lights.flags(light).max_bounces;
+    }
+    bool uses_cycles_weights() const { return F.visibility && scene().techniques_differ; }
     /// What arrives at a point of a light sample (visibility.h). origin_offset: how far the origin was moved off its
     /// surface at most. An emissive triangle must not shadow itself: the ray ends short of it by the errors of both
     /// ends, as they are seen along its plane.

@@ -68,6 +68,7 @@ struct PathState {
     uint32_t depth = 0;   ///< scattering vertices so far
     uint32_t scatter = 0; ///< those in the medium
     PathClass path_class = PathClass::none;
+    [[no_unique_address]] std::conditional_t<F.visibility, RayKind, Absent<3>> kind{}; ///< the camera's at first
     EmissionMode emission_mode = EmissionMode::mis;
     uint32_t depth_since_first = 0; ///< vertices from the one that decided path_class on
     uint32_t specular_depth = 0;    ///< mirrors and dielectrics in a row up to here

@@ -34,8 +34,8 @@ void PathSample<F>::pixel_ris(ShutterTime time) {
         Candidate &candidate = candidates[count];
         candidate.ray =
             sample_camera_ray(scene(), context_.pixel_x, context_.pixel_y, u_pixel, sampler_.next_2d(), time).ray;
-        const auto hit = intersect(candidate.ray);
-        if (!hit)
+        const auto hit = intersect(candidate.ray, RayKind::camera);
+        if (!hit || (F.visibility && scene().is_holdout(*hit)))
             continue;
         candidate.surface = scene().interaction(candidate.ray, *hit);
         candidate.beta = Rgb(1.0f / tuning::kRisCandidates);

@@ -17,13 +17,15 @@ void PathSample<F>::follow(State &state) {
     const Medium *medium = medium_of(state);
     if (state.compensates())
         return compensate(state, *medium);
-    const std::optional<Hit> hit = intersect(state.ray);
+    const std::optional<Hit> hit = intersect(state.ray, kind_of(state));
     const float end = hit ? hit->t : kInfinity;
 
     add_lamps(state, end, medium);
     std::optional<Interaction> surface;
     Shading shading;
-    if (hit) {
+    if (hit && is_held_out(state, *hit)) {
+        // Neither the surface nor what is behind it; the medium before it is there.
+    } else if (hit) {
         surface = scene().interaction(state.ray, *hit);
         if constexpr (F.surfaces)
             arena_.clear();
@@ -125,13 +127,14 @@ bool PathSample<F>::is_far_side(const State &state, const Hit &hit, const Intera
 
 template <KernelFeatures F>
 void PathSample<F>::add_lamps(const State &state, float end, const Medium *medium) {
-    if (!F.other_lights || state.depth == 0) // lamps are invisible to the camera
+    if (!F.other_lights)
         return;
     Ray ray = state.ray;
     ray.t_max = end;
     for (uint32_t light : scene().lights.intersectable_lamps())
-        if (const auto lamp = intersect_lamp(scene().lights[light], ray))
-            add_emitted(state, lamp->radiance * emission_mis_weight(state, light, {lamp->t}), lamp->t, medium);
+        if (sees_light(state, light))
+            if (const auto lamp = intersect_lamp(scene().lights[light], ray))
+                add_emitted(state, lamp->radiance * emission_mis_weight(state, light, {lamp->t}), lamp->t, medium);
 }
 
 template <KernelFeatures F>
@@ -139,7 +142,7 @@ void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
     if (!F.other_lights)
         return;
     for (uint32_t light : scene().lights.infinite()) {
-        if (state.depth == 0 && !traits(scene().lights[light]).camera_visible)
+        if (!sees_light(state, light))
             continue;
         const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction);
         if (!is_black(radiance))
@@ -161,6 +164,8 @@ float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, con
         if (previous.kind == ScatterKind::specular || light == kNone)
             return 1;
         const float at_light = light_pdf(scene().lights[light], previous.position, state.ray.direction, hit);
+        if (previous.kind == ScatterKind::surface && uses_cycles_weights())
+            return cycles_weight(previous.pdf, at_light / float(scene().lights.size()));
         if (previous.kind == ScatterKind::surface)
             return balance(previous.pdf,
                            expected_samples(previous.several_lights, light, previous.position) * at_light);
@@ -180,11 +185,13 @@ float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, con
 
 template <KernelFeatures F>
 Rgb PathSample<F>::visibility(const Vec3f &origin, const LightSample &light, ShutterTime time, float origin_offset) {
+    if (F.visibility && !light.shadows)
+        return Rgb(1);
     const float short_of_light =
         light.distance * (1 - kHitRounding / light.facing) - (light.error + origin_offset) / light.facing;
     const float distance = std::max(short_of_light, 0.0f);
     const Ray ray{origin, light.direction, time, distance};
-    return glimmer::visibility<F.bvh>(scene(), ray, trace_, light.ignored_sphere);
+    return glimmer::visibility<F.bvh>(scene(), ray, RayKind::shadow, trace_, light.ignored_sphere);
 }
 
 template <KernelFeatures F>

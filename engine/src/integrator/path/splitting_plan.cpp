@@ -24,7 +24,7 @@ double pixel_contrast(const Scene &scene) {
     ClosureArena arena;
     const auto target = [&](uint32_t x, uint32_t y) {
         const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d(), kMidShutter).ray;
-        const auto hit = scene.accel->intersect(ray);
+        const auto hit = scene.accel->intersect(ray, RayKind::camera);
         if (!hit)
             return 0.0;
         Interaction surface = scene.interaction(ray, *hit);
@@ -50,9 +50,9 @@ SplittingPlan plan_splitting(const Scene &scene, const EstimatorFlags &flags) {
     const bool medium = scene.medium && scene.medium->scatters();
     const bool glints =
         (flags.pixel_ris || (flags.branch && !medium)) && pixel_contrast(scene) > tuning::kContrastOfGlints;
-    return {!flags.branch      ? 1
-            : medium || glints ? tuning::kBranchesWhereVaried
-                               : tuning::kBranchesElsewhere,
+    return {!flags.branch || scene.techniques_differ ? 1
+            : medium || glints                       ? tuning::kBranchesWhereVaried
+                                                     : tuning::kBranchesElsewhere,
             flags.pixel_ris && glints};
 }
 

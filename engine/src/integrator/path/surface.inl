@@ -90,6 +90,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
         if (!survives(next, surface.position, kRouletteScaleAtSurfaces) || (s->specular && !survives_specular(next)))
             continue;
         next.emission_mode = lit_by_ris && !s->specular ? EmissionMode::skip : EmissionMode::mis;
+        set_kind(next, kind_of(*s));
         if (s->specular)
             leave_specular(next, surface, wi);
         else
@@ -196,6 +197,7 @@ void PathSample<F>::light_surface(const State &state, const Interaction &surface
     next.beta *= s->weight;
     if (s->transmitted)
         cross_boundary(next, *oriented_surface);
+    set_kind(next, kind_of(*s));
     leave_rough(next, surface, oriented_surface->geometric, wi, s->pdf);
     if (may_meet_light(next.ray))
         push(next);
@@ -225,14 +227,14 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         const auto light =
             sample_light(choice.index, x,
                          camera ? sampler_.stratified_2d(dimension(Dimension::surface_light, i)) : sampler_.next_2d());
-        if (!light)
+        if (!light || is_beyond_bounces(choice.index, state.depth))
             continue;
         const Vec3f wi = frame.to_local(light->direction);
         const float side = dot(light->direction, geometric);
         const bool beyond = both_sides && side < 0;
         if (beyond ? !(wi.z < 0) : !(side > 0) || !(wi.z > 0))
             continue;
-        const Rgb f_cos = eval(bsdf, wo, wi);
+        const Rgb f_cos = eval_for(*light, bsdf, wo, wi);
         Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
         const Ray to_light{x, light->direction, state.ray.time};
         if (F.transmission && beyond && oriented_surface.bounds_interior)
@@ -242,7 +244,9 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (lobes != Lobes::all)
             value *= fraction_of(lobes, vertex_fraction(oriented_surface, f_cos, wi));
         if (!light->delta && !is_black(value))
-            value *= balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
+            value *= uses_cycles_weights()
+                         ? cycles_weight(light->pdf / float(scene().lights.size()), pdf(bsdf, wo, wi))
+                         : balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
         if (!is_black(value))
             candidates[count++] = {*light, value, value.r + value.g + value.b};
     }

@@ -52,6 +52,7 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
     state.medium_compensation_radius = k * settings.medium_clamp_distance;
     state.surface_compensation_radius = k * settings.surface_clamp_distance;
     const Vec3f view = state.ray.direction;
+    set_kind(state, RayKind::volume);
     state.ray = {x, scene().medium->phase().sample(view, sampler_.next_2d()).direction, state.ray.time};
     const float u_splat = t > 0 ? sampler_.next_1d() : 1;
     if constexpr (F.surfaces) // without surfaces there are no splats
@@ -82,7 +83,7 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
                             ? std::max(medium_compensation_radius, surface_compensation_radius)
                             : kInfinity;
     state.ray.t_max = reach;
-    const std::optional<Hit> hit = intersect(state.ray);
+    const std::optional<Hit> hit = intersect(state.ray, RayKind::volume);
     const float end = hit ? hit->t : reach;
     state.ray.t_max = kInfinity;
     const FreeFlight flight = state.scatter < context_.limits.scatter

@@ -276,7 +276,7 @@ Rgb BlockVertices::correct_medium(const GatherQuery &point, const Connections &c
 
 Rgb BlockVertices::correct(const Connections &connections, const Rgb &value, float part, const Ray &ray,
                            TraceContext &rays) const {
-    const Rgb arriving = ray.t_max > 0 ? visibility(scene_, ray, rays) : Rgb(1);
+    const Rgb arriving = ray.t_max > 0 ? visibility(scene_, ray, RayKind::volume, rays) : Rgb(1);
     return arriving == Rgb(1) ? connections.total
                               : connections.total - value * (Rgb(1) - arriving) * (connections.total_part / part);
 }

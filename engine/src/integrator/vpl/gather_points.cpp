@@ -14,7 +14,7 @@ std::vector<Vec3f> sample_gather_points(const Scene &scene, const Rectangle &pix
         const uint32_t x = pick_pixel(pixels.x, pixels.width, sampler.next_1d()),
                        y = pick_pixel(pixels.y, pixels.height, sampler.next_1d());
         const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d(), time).ray;
-        const auto hit = scene.accel->intersect(ray);
+        const auto hit = scene.accel->intersect(ray, RayKind::camera);
         ++rays.rays;
         const float u_channel = scene.medium->monochromatic() ? 0 : sampler.next_1d();
         const uint64_t bits = ~0ull / count * i + sampler.next_bits() / count;

@@ -6,6 +6,7 @@
 #include "integrator/return_bound.h"
 #include "integrator/roulette.h"
 #include "integrator/shading_frame.h"
+#include "integrator/visibility.h"
 #include "integrator/vpl/bounded_fraction.h"
 #include "integrator/vpl/connection.h"
 #include "integrator/vpl/tuning.h"
@@ -17,6 +18,9 @@
 namespace glimmer {
 
 namespace {
+
+// All kinds but the camera's see the same wherever there is a cache.
+constexpr RayKind kSubpathKind = RayKind::diffuse;
 
 /// One light subpath. It carries flux, so refraction scales nothing. Light from a point light that has met only mirrors
 /// and dielectrics is left out: no camera path can meet it, so nothing would compensate what bounded connections take
@@ -61,7 +65,7 @@ class LightSubpath {
         ++path.depth.depth;
         if (!may_be_joined(path.depth))
             return;
-        const auto hit = scene_.accel->intersect(path.ray);
+        const auto hit = scene_.accel->intersect(path.ray, kSubpathKind);
         ++rays_.rays;
         const float own_end = path.ray.t_max; // finite only within a see-through sphere light, where the ray ends
         path.ray.t_max = kInfinity;
@@ -87,7 +91,7 @@ class LightSubpath {
         SubpathSegment segment{path.ray, path.power, path.remainder};
         for (;;) { // and behind surfaces that let some of it straight through
             ++rays_.rays;
-            const auto hit = scene_.accel->intersect(segment.ray);
+            const auto hit = scene_.accel->intersect(segment.ray, kSubpathKind);
             if (hit)
                 segment.ray.t_max = hit->t;
             splat(scene_, segment, settings_, sampler_, rays_, out_.splats);
@@ -405,6 +409,13 @@ std::vector<double> start_shares(const LightSet &lights, const ImportanceMap &im
     return shares;
 }
 
+/// What is left of a start's light behind the length in which no vertex may stand.
+Rgb passes_dark(const Scene &scene, const Emission &start, TraceContext &rays) {
+    const Vec3f &direction = start.ray.direction;
+    const Ray dark{start.ray.origin - direction * start.dark, direction, start.ray.time, start.dark};
+    return visibility(scene, dark, kSubpathKind, rays) * transmittance(scene.outside(), dark, start.dark);
+}
+
 } // namespace
 
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
@@ -434,9 +445,12 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
             if (!start || is_black(start->power))
                 continue;
             start->ray.time = time;
+            if (start->dark > 0)
+                start->power *= passes_dark(scene, *start, rays);
             start->power *= float((both ? 2 : 1) / (shares[i] * settings.paths));
             const float target = max_component(start->power) * importance(b.center);
-            subpath.trace(*start, traits(lights[i]).delta, dielectrics_at(scene, start->ray.origin, time), target);
+            subpath.trace(*start, traits(lights[i]).delta, dielectrics_at(scene, start->ray.origin, time, kSubpathKind),
+                          target);
         }
     }
     return out;

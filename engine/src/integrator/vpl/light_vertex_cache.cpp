@@ -49,6 +49,8 @@ const char *reason_against(const Scene &scene, const DepthLimits &limits, const 
         return "the fog's anisotropy is outside -0.6 to 0.9";
     if (is_dense_and_white(scene))
         return "the fog is so dense and white that light wanders through all of the scene";
+    if (scene.hides_beyond_camera || scene.techniques_differ)
+        return "objects or lights that some rays do not see, lamps without shadows or with a limit of bounces";
     if (!has_finite_light(scene))
         return "no light but from infinity";
     return nullptr;

@@ -59,7 +59,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, Shu
             if (!(weight > 0))
                 continue;
             if (!arriving)
-                arriving = radiance * visibility(scene, way, rays);
+                arriving = radiance * visibility(scene, way, RayKind::camera, rays);
             if (is_black(*arriving))
                 return;
             out.push_back({uint32_t(px), uint32_t(py), *arriving * weight});
