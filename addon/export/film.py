@@ -42,6 +42,11 @@ def filter_settings(settings: Any) -> dict[str, Any]:
     return {"filter": settings.filter.lower(), "filter_width": 2.0 * settings.filter_width}
 
 
+def film_exposure(scene: bpy.types.Scene) -> float:
+    """Cycles' setting, which is not there where Cycles is switched off."""
+    return float(getattr(getattr(scene, "cycles", None), "film_exposure", 1.0))
+
+
 def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
     render = scene.render
     if render.pixel_aspect_x != render.pixel_aspect_y:
@@ -60,7 +65,7 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
         crop = border_window(size, edges)
         if crop[2] <= crop[0] or crop[3] <= crop[1]:
             raise GlimmerError("The render border holds no pixel: make it larger, or clear it with Ctrl Alt B")
-    return Film(*size, crop=crop, **filter_settings(scene.glimmer))
+    return Film(*size, crop=crop, exposure=film_exposure(scene), **filter_settings(scene.glimmer))
 
 
 def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Floats
+from .visibility import SEEN, Visibility, visibility
 
 if TYPE_CHECKING:
     import bpy
@@ -36,6 +37,7 @@ class Placed:
     # One a member of `matrices`: the same object, or instances by the same object, at all moments.
     ids: list[Hashable] = field(default_factory=list)
     instancer: bpy.types.Object | None = None  # the last of those that it is an instance by
+    visibility: Visibility = SEEN
 
     def all_matrices(self) -> Floats:
         """(n, 4, 4). The last row is that of a matrix of places, whatever rounding made of it."""
@@ -101,9 +103,10 @@ def placed_objects(
 ) -> Iterator[Placed]:
     """Everything visible. An object is valid only until the next is asked for: an instance's may be a temporary one."""
     plain = True
-    bulk: dict[int, Placed] = {}
+    bulk: dict[tuple[int, Visibility], Placed] = {}
     read_in_bulk: set[int] = set()
     present: set[int] = set()
+    layer = depsgraph.view_layer
     for item in depsgraph.objects:
         present.add(item.original.as_pointer())
         if is_shown is not None and not is_shown(item):
@@ -115,7 +118,8 @@ def placed_objects(
                 continue
             read_in_bulk.add(item.original.as_pointer())
             for prototype, matrices in found:
-                placed = bulk.setdefault(prototype.as_pointer(), Placed(prototype))
+                seen = visibility(prototype, item, layer)
+                placed = bulk.setdefault((prototype.as_pointer(), seen), Placed(prototype, visibility=seen))
                 placed.matrices.append(matrices)
                 placed.ids.append(("bulk", item.original.as_pointer(), prototype.original.as_pointer()))
                 placed.instancer = item.original
@@ -124,7 +128,7 @@ def placed_objects(
     if plain and not _has_hidden_instancers(depsgraph, present):
         for item in depsgraph.objects:
             if is_shown is None or is_shown(item):
-                yield placed_once(item)
+                yield placed_once(item, layer)
     else:
         yield from _by_loop(depsgraph, read_in_bulk, is_shown)
     yield from bulk.values()
@@ -134,7 +138,7 @@ def placed_objects(
 SHOWN_BY_OTHERS = {"CURVE", "SURFACE", "FONT", "META"}
 
 
-def placed_once(item: bpy.types.Object) -> Placed:
+def placed_once(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> Placed:
     """Where the object itself stands."""
     return Placed(
         item,
@@ -142,6 +146,7 @@ def placed_once(item: bpy.types.Object) -> Placed:
         [np.array(item.matrix_world, np.float64)],
         [hash_pair(name_hash(item.name), 0)],
         [("object", item.original.as_pointer())],
+        visibility=visibility(item, None, layer),
     )
 
 
@@ -163,6 +168,10 @@ def _has_hidden_instancers(depsgraph: bpy.types.Depsgraph, present: set[int]) ->
     )
 
 
+# Of an instance: whose it is, its data, whether it is hair, and what sees it.
+Key = tuple[int, int, bool, Visibility]
+
+
 def _by_loop(
     depsgraph: bpy.types.Depsgraph,
     left_out: set[int],
@@ -170,15 +179,28 @@ def _by_loop(
 ) -> Iterator[Placed]:
     """The slow way, but for the instances of some. One mesh may be shown by a temporary object per instance, so
     instances are grouped by their data."""
-    groups: dict[tuple[int, int, bool], Placed] = {}
+    groups: dict[Key, Placed] = {}
+    layer = depsgraph.view_layer
+    known: dict[tuple[int, int], Visibility] = {}
+
+    def keys(instance: bpy.types.DepsgraphObjectInstance) -> list[Key]:
+        """What an instance shows: its surface, its hair or both."""
+        item, data = instance.object, instance.object.data
+        pair = item.original.as_pointer(), instance.parent.original.as_pointer()
+        if pair not in known:
+            known[pair] = visibility(item, instance.parent, layer)
+        whose = pair[0], 0 if data is None else data.as_pointer()
+        shown = ((False, instance.show_self), (True, instance.show_particles))
+        return [(*whose, strands, known[pair]) for strands, is_shown in shown if is_shown]
+
     for instance in depsgraph.object_instances:
         if not instance.is_instance:
             item = instance.object
             if is_shown is None or is_shown(item):
                 if instance.show_self:
-                    yield placed_once(item)
+                    yield placed_once(item, layer)
                 if instance.show_particles:
-                    placed = placed_once(item)
+                    placed = placed_once(item, layer)
                     placed.strands = True
                     yield placed
             continue
@@ -187,10 +209,10 @@ def _by_loop(
             continue
         matrix, random = np.array(instance.matrix_world, np.float64), instance.random_id & 0xFFFFFFFF
         ident = (parent.original.as_pointer(), instance.object.original.as_pointer(), tuple(instance.persistent_id))
-        for key in _keys(instance):
+        for key in keys(instance):
             group = groups.get(key)
             if group is None:
-                group = groups[key] = Placed(instance.object, key[2], [], [])
+                group = groups[key] = Placed(instance.object, key[2], [], [], visibility=key[3])
             group.matrices.append(matrix)
             group.ids.append(ident)
             group.instancer = parent.original
@@ -200,20 +222,10 @@ def _by_loop(
     # The objects of the first loop are gone, so those of a second are handed out, each once.
     for instance in depsgraph.object_instances:
         if instance.is_instance:
-            for key in _keys(instance):
+            for key in keys(instance):
                 group = groups.pop(key, None)
                 if group is not None:
                     group.item = instance.instance_object if group.strands else instance.object
                     yield group
             if not groups:
                 return
-
-
-def _keys(instance: bpy.types.DepsgraphObjectInstance) -> list[tuple[int, int, bool]]:
-    """What an instance shows: its surface, its hair or both."""
-    item = instance.object
-    data = item.data
-    whose = item.original.as_pointer(), 0 if data is None else data.as_pointer()
-    return [
-        (*whose, strands) for strands, shown in ((False, instance.show_self), (True, instance.show_particles)) if shown
-    ]

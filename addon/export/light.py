@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.description import AreaLight, Floats, Lamp, PointLight, Rgb, SpotLight, SunLight
+from ..scene.description import AreaLight, Floats, Lamp, LampFlags, PointLight, Rays, Rgb, SpotLight, SunLight
 from ..scene.problems import Notices, place
 from .camera import rigid
 from .nodes import Nodes, scaled
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     import bpy
 
 Version = tuple[int, ...]
+
+UNLIMITED_BOUNCES = 1024  # the most that Cycles takes, and its default
+LEAST_SPREAD = pi / 180.0  # of an area lamp, in radians; Cycles makes less wider
 
 
 def point_intensity(power: float) -> float:
@@ -38,37 +41,64 @@ def ellipse_or_rectangle_area(size: tuple[float, float], ellipse: bool) -> float
     return size[0] * size[1] * (pi / 4.0 if ellipse else 1.0)
 
 
-def export_lamp(item: bpy.types.Object, matrix: Floats, version: Version, notices: Notices) -> Lamp | None:
-    """The lamp of an evaluated object at a matrix (4, 4); None where it gives no light."""
+def has_round_lamps(version: Version) -> bool:
+    """Whether a lamp of a size may be a sphere, a spot is as bright at its rim as in its middle, and the sun's radiance
+    is even."""
+    return version >= (4, 0)
+
+
+def export_lamp(item: bpy.types.Object, matrix: Floats, rays: Rays, version: Version, notices: Notices) -> Lamp | None:
+    """The lamp of an evaluated object at a matrix (4, 4); None where it gives no light. rays: that meet it."""
     data = item.data
+    if data.type == "AREA" and getattr(getattr(data, "cycles", None), "is_portal", False):
+        return None  # it only tells Cycles where to look for the sky
     where = place(item.name)
     color = _color(data, where, notices)
     power = data.energy * 2.0 ** getattr(data, "exposure", 0.0)
-    _note_differences(data, where, notices)
+    _note_differences(item, matrix, where, version, notices)
     if power <= 0.0 or not any(color):
         if power < 0.0:
             notices.add(where, "a lamp of negative power gives no light")
         return None
+    flags = _flags(data, rays, version)
+    is_old = not has_round_lamps(version)
     direction = tuple(float(v) for v in -matrix[:3, 2])
     position = (float(matrix[0, 3]), float(matrix[1, 3]), float(matrix[2, 3]))
     if data.type == "SUN":
         irradiance = scaled(color, sun_irradiance(power))
-        return SunLight(item.name, (direction[0], direction[1], direction[2]), irradiance, degrees(data.angle))
+        axis = (direction[0], direction[1], direction[2])
+        return SunLight(item.name, axis, irradiance, degrees(data.angle), is_old, flags)
     if data.type == "AREA":
-        return _area(item.name, data, matrix, color, power, version)
+        return _area(item.name, data, matrix, color, power, version, flags)
     if not getattr(data, "normalize", True):
         # The power is then that of one square metre of the sphere.
         power *= 4.0 * pi * data.shadow_soft_size**2 if data.shadow_soft_size > 0.0 else 1.0
     intensity = scaled(color, point_intensity(power))
     radius = data.shadow_soft_size
+    is_disk = is_old or data.use_soft_falloff
     if data.type == "SPOT":
         axis = (direction[0], direction[1], direction[2])
-        return SpotLight(item.name, position, axis, intensity, degrees(data.spot_size), data.spot_blend, radius)
-    return PointLight(item.name, position, intensity, radius)
+        cone = (degrees(data.spot_size), data.spot_blend)
+        return SpotLight(item.name, position, axis, intensity, *cone, radius, is_disk, is_old, flags)
+    return PointLight(item.name, position, intensity, radius, is_disk, flags)
+
+
+def _flags(data: bpy.types.Light, rays: Rays, version: Version) -> LampFlags:
+    cycles = getattr(data, "cycles", None)  # None: Cycles is switched off
+    # Before 4.2 the first was EEVEE's alone.
+    shadows = data.use_shadow if version >= (4, 2) else getattr(cycles, "cast_shadow", True)
+    bounces = getattr(cycles, "max_bounces", UNLIMITED_BOUNCES)
+    return LampFlags(rays, bool(shadows), bounces if bounces < UNLIMITED_BOUNCES else None)
 
 
 def _area(
-    name: str, data: bpy.types.AreaLight, matrix: Floats, color: Rgb, power: float, version: Version
+    name: str,
+    data: bpy.types.AreaLight,
+    matrix: Floats,
+    color: Rgb,
+    power: float,
+    version: Version,
+    flags: LampFlags,
 ) -> AreaLight | None:
     scale = np.linalg.norm(matrix[:3, :2], axis=0)
     both = data.shape in ("RECTANGLE", "ELLIPSE")
@@ -78,7 +108,8 @@ def _area(
     if area <= 0.0:
         return None
     radiance = area_radiance(power, area if getattr(data, "normalize", True) else 1.0, version)
-    return AreaLight(name, rigid(matrix), size, scaled(color, radiance), ellipse)
+    spread = degrees(max(data.spread, LEAST_SPREAD)) if data.spread < pi - 1e-4 else 180.0
+    return AreaLight(name, rigid(matrix), size, scaled(color, radiance), ellipse, spread, flags)
 
 
 def _color(data: bpy.types.Light, where: str, notices: Notices) -> Rgb:
@@ -91,10 +122,10 @@ def _color(data: bpy.types.Light, where: str, notices: Notices) -> Rgb:
     return color
 
 
-def _note_differences(data: bpy.types.Light, where: str, notices: Notices) -> None:
+def _note_differences(item: bpy.types.Object, matrix: Floats, where: str, version: Version, notices: Notices) -> None:
+    data = item.data
     if data.type == "SPOT" and data.use_square:
         notices.add(where, "a square spot is not supported; it is round")
-    if data.type == "AREA" and data.spread < pi - 1e-4:
-        notices.add(where, "the spread of an area lamp is not supported; it shines in all directions of its front")
-    if not data.use_shadow:
-        notices.add(where, "a lamp without shadows is not supported; it casts them")
+    scale = np.linalg.norm(matrix[:3, :3], axis=0)
+    if data.type == "SPOT" and has_round_lamps(version) and not np.allclose(scale, scale[0], rtol=1e-3):
+        notices.add(where, "a spot whose object is stretched is not supported; its cone is round")

@@ -48,6 +48,7 @@ from .points import point_cloud
 from .sphere import NotASphereError, read_sphere
 from .strands import Strands, curve_strands, particle_strands, tubes
 from .translate.image import Images
+from .visibility import note_differences
 from .world import export_world, warn_of_black_sky
 
 if TYPE_CHECKING:
@@ -118,14 +119,20 @@ def take_notices(
     """Only what an export of these evaluated objects would say, without their meshes. Raises nothing."""
     collector = _Collector(depsgraph, version, notices, False, None)
     collector.reads, collector.images = False, images
+    _note_light_groups(depsgraph, notices)
     for item in items:
-        surface, hair = placed_once(item), placed_once(item)
+        surface, hair = (placed_once(item, depsgraph.view_layer) for _ in range(2))
         hair.strands = True
         for placed in (surface, hair):
             try:
                 collector.add(placed)
             except GlimmerError as error:
                 notices.add("", str(error))
+
+
+def _note_light_groups(depsgraph: bpy.types.Depsgraph, notices: Notices) -> None:
+    if depsgraph.view_layer_eval.lightgroups:
+        notices.add("", "light groups are not supported; their passes are not rendered")
 
 
 @dataclass(frozen=True)
@@ -162,6 +169,7 @@ class _Source:
         collector = _Collector(self.depsgraph, self.version, notices, self.constants_only, recording)
         for placed in self.placed():
             collector.add(placed)
+        _note_light_groups(self.depsgraph, notices)
         environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
         lights = tuple(collector.lights)
         warn_of_black_sky(scene.world, environment, lights, medium, notices)
@@ -246,6 +254,9 @@ class _Collector:
 
     def add(self, placed: Placed) -> None:
         kind = placed.item.type
+        note_differences(placed.item, self._notices)
+        if kind != "LIGHT" and not placed.visibility.rays:
+            return  # and it shines no more either
         if placed.strands:
             self._add_hair(placed)
         elif kind == "MESH" or (kind in SHOWN_BY_OTHERS and not self.reads):
@@ -258,7 +269,7 @@ class _Collector:
             if self._motion(placed) is not None:
                 self._notices.add(place(placed.item.name), f"a lamp that moves while the shutter is open, {HELD_STILL}")
             for matrix in placed.all_matrices():
-                lamp = export_lamp(placed.item, matrix, self._version, self._notices)
+                lamp = export_lamp(placed.item, matrix, placed.visibility.rays, self._version, self._notices)
                 if lamp is not None:
                     self.lights.append(lamp)
         elif kind in UNSUPPORTED:
@@ -301,27 +312,34 @@ class _Collector:
             moving = motion.moving & solid
             if moving.sum() < motion.moving.sum():
                 self._notices.add(place(placed.item.name), f"is flat and moves while the shutter is open, {HELD_STILL}")
-            part = self._part(placed.item, mesh, materials)
+            part = self._part(placed, mesh, materials)
             self._add_moving(part, matrices[moving], randoms[moving], motion.steps[:, solid[motion.moving]])
             solid &= ~moving
         for matrix, random in zip(matrices[flat], randoms[flat], strict=True):
-            self._add_placed(placed.item, np.eye(4)[None], np.array([random]), flattened(mesh, matrix), materials)
+            self._add_placed(placed, np.eye(4)[None], np.array([random]), flattened(mesh, matrix), materials)
         if solid.any():
-            self._add_placed(placed.item, matrices[solid], randoms[solid], mesh, materials)
+            self._add_placed(placed, matrices[solid], randoms[solid], mesh, materials)
 
     def _add_placed(
-        self, item: bpy.types.Object, matrices: Floats, randoms: Floats, mesh: Mesh, materials: tuple[int, ...]
+        self, placed: Placed, matrices: Floats, randoms: Floats, mesh: Mesh, materials: tuple[int, ...]
     ) -> None:
-        part = self._part(item, mesh, materials)
+        part = self._part(placed, mesh, materials)
         if len(matrices) > 1:
             self.objects.append(replace(part, instances=matrices, random=randoms))
         else:
             self.objects.append(replace(part, to_world=matrices[0], random=float(randoms[0])))
 
-    def _part(self, item: bpy.types.Object, mesh: Mesh, materials: tuple[int, ...]) -> Object:
+    def _part(self, placed: Placed, mesh: Mesh, materials: tuple[int, ...]) -> Object:
         """Without a place."""
+        item, seen = placed.item, placed.visibility
         return Object(
-            name=item.name, mesh=mesh, materials=materials, object_index=item.pass_index, color=_rgba(item.color)
+            name=item.name,
+            mesh=mesh,
+            materials=materials,
+            object_index=item.pass_index,
+            color=_rgba(item.color),
+            rays=seen.rays,
+            is_holdout=seen.is_holdout,
         )
 
     def _add_moving(self, part: Object, middle: Floats, randoms: Floats, steps: Floats) -> None:
@@ -415,6 +433,8 @@ class _Collector:
                 radii=(scales.mean(axis=1)[:, None] * radii).reshape(-1),
                 material=material,
                 object_index=item.pass_index,
+                rays=placed.visibility.rays,
+                is_holdout=placed.visibility.is_holdout,
             )
         )
 
@@ -455,6 +475,8 @@ class _Collector:
                 radii=radii,
                 material=self._material(material, item.name),
                 object_index=item.pass_index,
+                rays=placed.visibility.rays,
+                is_holdout=placed.visibility.is_holdout,
             )
         )
         return True

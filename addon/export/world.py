@@ -12,11 +12,13 @@ import numpy as np
 from ..scene.description import BLACK, Environment, Floats, Lamp, Medium, Rgb, SunLight
 from ..scene.problems import ENDLESS_FOG, Notices
 from ..scene.program import Op, TooLargeError, compile_program
+from .light import UNLIMITED_BOUNCES
 from .nodes import Input, Nodes, NotConstantError, Source, add_colors, lerp, scaled
 from .translate.image import Images
 from .translate.values import Triple, added, clamped
 from .translate.values import lerp as blended
 from .translate.values import scaled as scaled_by
+from .visibility import world_rays
 from .volume import volume_medium
 
 if TYPE_CHECKING:
@@ -38,8 +40,12 @@ def export_world(
 ) -> tuple[Environment, Medium | None]:
     if world is None:
         return Environment(), None
+    rays = world_rays(world)
+    bounces = getattr(getattr(world, "cycles", None), "max_bounces", UNLIMITED_BOUNCES)
+    if bounces < UNLIMITED_BOUNCES:
+        notices.add(f"world '{world.name}'", "a limit of its light's bounces is not supported; it has none")
     if not world.use_nodes or world.node_tree is None:
-        return Environment(radiance=(world.color[0], world.color[1], world.color[2])), None
+        return Environment(radiance=(world.color[0], world.color[1], world.color[2]), rays=rays), None
     nodes = Nodes(world.node_tree, f"world '{world.name}'", notices, images)
     nodes.is_sky = True
     nodes.constants_only = constants_only
@@ -47,6 +53,7 @@ def export_world(
     environment = Environment()
     if surface is not None:
         environment = _sky_program(nodes, surface) or _Background(nodes, world).shader(surface)
+    environment = replace(environment, rays=rays)
     return environment, None if volume is None else volume_medium(nodes, volume)
 
 

@@ -61,6 +61,8 @@ class GLIMMER_PT_film(GlimmerPanel, bpy.types.Panel):
         layout.prop(settings, "filter")
         if settings.filter != "BOX":
             layout.prop(settings, "filter_width")
+        if hasattr(context.scene, "cycles"):
+            layout.prop(context.scene.cycles, "film_exposure")
 
 
 class GLIMMER_PT_performance(GlimmerPanel, bpy.types.Panel):

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..export.camera import export_view
-from ..export.film import export_view_settings, filter_settings
+from ..export.film import export_view_settings, film_exposure, filter_settings
 from ..export.instance import BulkReader
 from ..export.scene import View, export_scene
 from ..film.display import status
@@ -121,7 +121,7 @@ class RenderedView:
         size = (max(region.width, 1), max(region.height, 1))
         camera = space.camera if space.use_local_camera else scene.camera
         return View(
-            Film(*size, **filter_settings(scene.glimmer)),
+            Film(*size, exposure=film_exposure(scene), **filter_settings(scene.glimmer)),
             export_view(
                 space, context.region_data, None if camera is None else camera.evaluated_get(depsgraph), notices
             ),
@@ -161,6 +161,7 @@ def _view_state(context: bpy.types.Context, scene: bpy.types.Scene) -> tuple[Any
         export_view_settings(scene),
         scene.glimmer.filter,
         scene.glimmer.filter_width,
+        film_exposure(scene),
         context.region.width,
         context.region.height,
         region_view.view_perspective,

@@ -291,6 +291,83 @@ def fog(kind: str, **inputs: Any) -> None:
     tree.links.new(volume.outputs[0], tree.nodes["World Output"].inputs["Volume"])
 
 
+def between(kind: str = "POINT", visible: str = "", **settings: Any) -> Any:
+    """A faceted ball over a floor under a lamp, hidden from the rays of one property."""
+    scene = inside.empty_scene((0.1, 0.1, 0.12))
+    floor()
+    light = inside.lamp(kind, (0.5, -1.0, 4.0), **{"energy": 300.0, "shadow_soft_size": 0.0, **settings})
+    ball = inside.ball("Ball", inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE), segments=16)
+    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
+    if visible:
+        setattr(ball, visible, False)
+    return scene, light, ball
+
+
+def seen_in(kind: str, visible: str, **inputs: Any) -> None:
+    """A ball that the floor's lobe does not see, or not through another one of the material."""
+    between(visible=visible)
+    if kind == "ShaderNodeBsdfGlossy":
+        bpy.data.objects["Floor"].data.materials[0] = inside.material(kind, "GGX", **inputs)
+    else:
+        inside.ball("Glass", inside.material(kind, **inputs), (0.0, -2.2, 2.4), 16)
+
+
+def lamp_seen_by(*hidden: str, **settings: Any) -> None:
+    """A wide lamp over a floor that is diffuse and glossy, hidden from the rays of these properties."""
+    _, light, _ = between("AREA", shape="DISK", size=3.0, **settings)
+    light.visible_camera = True
+    for name in hidden:
+        setattr(light, name, False)
+    glossy = inside.material("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.4)
+    bpy.data.objects["Ball"].data.materials[0] = glossy
+
+
+def without_shadow(**settings: Any) -> None:
+    _, light, _ = between(**settings)
+    if hasattr(light.data.cycles, "cast_shadow"):
+        light.data.cycles.cast_shadow = False
+    else:
+        light.data.use_shadow = False
+
+
+def lamp_of_one_bounce() -> None:
+    _, light, _ = between("AREA", shape="SQUARE", size=2.0)
+    light.data.cycles.max_bounces = 0
+
+
+def portal() -> None:
+    _, light, _ = between("AREA", shape="SQUARE", size=2.0)
+    light.data.cycles.is_portal = True
+
+
+def holdout() -> None:
+    between()[2].is_holdout = True
+
+
+def indirect_only() -> None:
+    _, _, ball = between()
+    scene = bpy.context.scene
+    collection = bpy.data.collections.new("Unseen")
+    scene.collection.children.link(collection)
+    scene.collection.objects.unlink(ball)
+    collection.objects.link(ball)
+    bpy.context.view_layer.layer_collection.children["Unseen"].indirect_only = True
+
+
+def world_not_seen() -> None:
+    scene = inside.empty_scene((0.5, 0.6, 0.9))
+    scene.world.cycles_visibility.camera = False
+    inside.plane(size=2.0, material=inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
+    inside.ball("Ball", inside.material("ShaderNodeBsdfGlossy", "GGX", Roughness=0.3), segments=16)
+
+
+def by_a_wall(**settings: Any) -> None:
+    """A lamp that is wide and close."""
+    under_lamp("POINT", energy=300.0, shadow_soft_size=0.5, **settings)
+    wall = inside.plane("Wall", 2.0, inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
+    wall.location, wall.rotation_euler = (0.0, 2.0, 2.0), (1.5, 0.0, 0.0)
+
+
 def edge() -> None:
     """Light of radiance 1 left of 0.3 pixels right of the middle, dark beyond; a pixel is a unit wide."""
     scene = inside.empty_scene()
@@ -305,6 +382,7 @@ def shader(kind: str, distribution: str | None = None, **inputs: Any) -> Callabl
 
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
+EXPOSURES = {"exposure": 2.0}
 GLASS, DIFFUSE = "ShaderNodeBsdfGlass", "ShaderNodeBsdfDiffuse"
 SCENES: dict[str, Callable[[], Any]] = {
     "point": lambda: under_lamp("POINT", energy=500.0, shadow_soft_size=0.0),
@@ -348,10 +426,31 @@ SCENES |= {
         IOR=1.4,
     ),
 }
+SCENES |= {
+    "not seen by the camera": lambda: between(visible="visible_camera"),
+    "without shadow": lambda: between(visible="visible_shadow"),
+    "without shadow, area": lambda: between("AREA", "visible_shadow", shape="SQUARE", size=2.0),
+    "not seen by diffuse rays": lambda: between(visible="visible_diffuse"),
+    "not seen by a mirror": lambda: seen_in("ShaderNodeBsdfGlossy", "visible_glossy", Roughness=0.0),
+    "not seen through glass": lambda: seen_in(GLASS, "visible_transmission", Roughness=0.0, IOR=1.2),
+    "lamp without diffuse": lambda: lamp_seen_by("visible_diffuse"),
+    "lamp without glossy": lambda: lamp_seen_by("visible_glossy"),
+    "lamp without shadow": without_shadow,
+    "area lamp without shadow": lambda: without_shadow(kind="AREA", shape="SQUARE", size=2.0),
+    "lamp of one bounce": lamp_of_one_bounce,
+    "portal": portal,
+    "holdout": holdout,
+    "indirect only": indirect_only,
+    "world not seen": world_not_seen,
+    "exposure": between,
+    "spread": lambda: under_lamp("AREA", energy=100.0, shape="ELLIPSE", size=2.0, size_y=1.0, spread=1.2),
+    "disk": by_a_wall,
+    "wide spot": lambda: under_lamp("SPOT", energy=500.0, shadow_soft_size=0.4, spot_size=1.9, spot_blend=0.3),
+    "wide sun": lambda: between("SUN", energy=3.0, angle=1.6),
+}
 if bpy.app.version >= (4, 2):
     # Before, Cycles lost a hundredth of this light: a mean of .2669 +- .0001 in 3.4, .2693 +- .0002 in 4.2, .2695 here.
     SCENES["glossy at grazing"] = glossy_at_grazing
-    # Before, Cycles' points with a radius were discs, and its spots grew darker towards their rim.
     SCENES["bulb"] = lambda: under_lamp("POINT", energy=500.0, shadow_soft_size=0.5, use_soft_falloff=False)
     SCENES["spot"] = lambda: under_lamp("SPOT", energy=500.0, shadow_soft_size=0.0, spot_size=1.2, spot_blend=0.5)
 else:
@@ -378,6 +477,7 @@ def pictures_of(build: Callable[[], Any]) -> dict[str, Any]:
     build()
     current = bpy.context.scene
     current.render.resolution_x, current.render.resolution_y = WIDTH, HEIGHT
+    current.cycles.film_exposure = EXPOSURES.get(name, 1.0)
     current.glimmer.samples, current.glimmer.filter = SAMPLES, "BOX"
     set_up_cycles(current, samples=SAMPLES)
     return {engine: np.array([picture(engine, seed) for seed in range(SEEDS)]) for engine in ("CYCLES", "GLIMMER")}

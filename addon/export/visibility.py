@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's Ray Visibility, holdout and indirect only -> which rays meet an object, a lamp or the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..scene.description import EVERY_RAY, Rays
+from ..scene.problems import Notices, place
+
+if TYPE_CHECKING:
+    import bpy
+
+OF_OBJECT = {
+    "visible_camera": Rays.CAMERA,
+    "visible_diffuse": Rays.DIFFUSE,
+    "visible_glossy": Rays.GLOSSY,
+    "visible_transmission": Rays.TRANSMISSION,
+    "visible_volume_scatter": Rays.VOLUME,
+    "visible_shadow": Rays.SHADOW,
+}
+OF_WORLD = {
+    "camera": Rays.CAMERA,
+    "diffuse": Rays.DIFFUSE,
+    "glossy": Rays.GLOSSY,
+    "transmission": Rays.TRANSMISSION,
+    "scatter": Rays.VOLUME,
+}
+
+
+@dataclass(frozen=True)
+class Visibility:
+    rays: Rays = EVERY_RAY
+    is_holdout: bool = False
+
+
+SEEN = Visibility()
+
+
+def rays_of(item: bpy.types.Object) -> Rays:
+    """Of an object's own settings."""
+    rays = EVERY_RAY
+    for name, ray in OF_OBJECT.items():
+        if not getattr(item, name):
+            rays &= ~ray
+    return rays
+
+
+def visibility(
+    item: bpy.types.Object, instancer: bpy.types.Object | None, view_layer: bpy.types.ViewLayer
+) -> Visibility:
+    """Of an evaluated object, by itself or as an instance of another. As in Cycles, what sees both sees an instance,
+    and its instancer says whether it is a holdout or indirect only."""
+    rays = rays_of(item)
+    if instancer is not None:
+        rays &= rays_of(instancer)
+    shown = (item if instancer is None else instancer).original
+    is_holdout = shown.holdout_get(view_layer=view_layer)
+    if not is_holdout and shown.indirect_only_get(view_layer=view_layer):
+        rays &= ~Rays.CAMERA
+    return Visibility(rays, is_holdout)
+
+
+def world_rays(world: bpy.types.World | None) -> Rays:
+    """The settings are Cycles' own, and not there where it is switched off."""
+    settings = getattr(world, "cycles_visibility", None)
+    rays = EVERY_RAY
+    for name, ray in OF_WORLD.items():
+        if settings is not None and not getattr(settings, name):
+            rays &= ~ray
+    return rays
+
+
+def note_differences(item: bpy.types.Object, notices: Notices) -> None:
+    """What an object asks for that is not rendered."""
+    where = place(item.name)
+    if item.type != "LIGHT" and item.is_shadow_catcher:
+        notices.add(where, "a shadow catcher is not supported; it is rendered as an ordinary object")
+    linking = getattr(item, "light_linking", None)
+    if linking is None:
+        return
+    if linking.receiver_collection is not None:
+        notices.add(where, "light linking is not supported; its light falls on all objects")
+    if linking.blocker_collection is not None:
+        notices.add(where, "shadow linking is not supported; all objects cast shadows in its light")
