@@ -45,7 +45,8 @@ class BlankImages(Images):
 
 def find_differences(depsgraph: bpy.types.Depsgraph, version: tuple[int, ...]) -> tuple[Notice, ...]:
     """In the words of a render's notices, with what would keep it from rendering."""
-    notices, scene, images = Notices(), depsgraph.scene_eval, BlankImages(scene.frame_current)
+    notices, scene = Notices(), depsgraph.scene_eval
+    images = BlankImages(scene.frame_current)
     try:
         film = export_film(scene, notices)
         camera = scene.camera.evaluated_get(depsgraph) if scene.camera is not None else None

@@ -48,6 +48,7 @@ from .points import point_cloud
 from .sphere import NotASphereError, read_sphere
 from .strands import Strands, curve_strands, particle_strands, tubes
 from .translate.image import Images
+from .translate.surface import named
 from .visibility import note_differences
 from .world import export_world, warn_of_black_sky
 
@@ -393,12 +394,15 @@ class _Collector:
 
     def _add_curves(self, placed: Placed) -> None:
         material = self._material(_slots(placed.item)[0], placed.item.name)
-        strands = curve_strands(placed.item.data) if self.reads else None
+        strands = curve_strands(placed.item.data, self._attributes((material,))) if self.reads else None
         if strands is not None:
             self._add_tubes(placed, self._matrices(placed), strands, material)
 
     def _add_tubes(self, placed: Placed, matrices: Floats, strands: Strands, material: int) -> None:
         name = placed.item.name
+        for missing in sorted(self._attributes((material,)) - {key for key, _ in strands.values}):
+            what = missing.removeprefix(named(""))
+            self._notices.add(place(name), f"its material asks for '{what}', which hair has not here; it is 0")
         found = tubes(name, strands)
         if found.kept < 1.0:
             self._notices.add(

@@ -15,14 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Attribute, Floats, Mesh
+from .attributes import FIELDS
 from .translate.surface import ACTIVE_UV, GENERATED, named
 
 if TYPE_CHECKING:
     import bpy
 
 MOST_TRIANGLES = 4_000_000  # of the hair of one particle system or curves object
-SIDES = (6, 4, 3)  # of a tube, as far as that bound allows
-SUBDIVISIONS = 3  # of a segment, likewise: Cycles' curves are smooth between their points
+# Sides of a tube and parts of a segment (Cycles' curves are smooth between their points), as far as that bound allows.
+FINENESS = ((12, 3), (12, 2), (8, 2), (8, 1), (6, 1), (4, 1), (3, 1))
+LEAST_SMOOTH = 6  # sides; the normals of fewer turn so much within a face that light is lost
 DEFAULT_RADIUS = 0.005  # of curves without radii; Cycles' own
 
 
@@ -148,8 +150,8 @@ def _root_values(
     return found
 
 
-def curve_strands(curves: bpy.types.Curves) -> Strands | None:
-    """Of the data of a hair curves object, or of curves that Geometry Nodes made."""
+def curve_strands(curves: bpy.types.Curves, names: frozenset[str] = frozenset()) -> Strands | None:
+    """Of the data of a hair curves object, or of curves that Geometry Nodes made. names: of attributes."""
     count = len(curves.points)
     if not count:
         return None
@@ -165,7 +167,25 @@ def curve_strands(curves: bpy.types.Curves) -> Strands | None:
     keep = np.repeat(long, counts)
     if not keep.any():
         return None
-    return Strands(points.reshape(-1, 3)[keep].astype(np.float64), radii[keep].astype(np.float64), counts[long])
+    values = tuple(
+        (named(item.name), rows[long])
+        for item in curves.attributes
+        if named(item.name) in names and (rows := _curve_values(item)) is not None
+    )
+    return Strands(
+        points.reshape(-1, 3)[keep].astype(np.float64), radii[keep].astype(np.float64), counts[long], values=values
+    )
+
+
+def _curve_values(attribute: Any) -> Floats | None:
+    """(curves, width) of an attribute of curves; None for one of points."""
+    if attribute.domain != "CURVE" or attribute.data_type not in FIELDS:
+        return None
+    field, width = FIELDS[attribute.data_type]
+    kinds: dict[str, type[np.generic]] = {"INT": np.int32, "INT8": np.int32, "BOOLEAN": np.bool_}
+    values: NDArray[Any] = np.empty(width * len(attribute.data), kinds.get(attribute.data_type, np.float32))
+    attribute.data.foreach_get(field, values)
+    return values.reshape(-1, width).astype(np.float64)
 
 
 # ---- To tubes ----------------------------------------------------------------------------------------------------
@@ -174,22 +194,16 @@ def curve_strands(curves: bpy.types.Curves) -> Strands | None:
 def tubes(name: str, strands: Strands) -> Tubes:
     """One mesh of all strands, within MOST_TRIANGLES."""
     kept = 1.0
-    fits = [
-        (sides, parts)
-        for parts in range(SUBDIVISIONS, 0, -1)
-        for sides in SIDES
-        if 2 * sides * parts * strands.segments <= MOST_TRIANGLES
-    ]
-    while not fits and strands.counts.max() > 3:
+    fewest = FINENESS[-1]
+    while 2 * fewest[0] * strands.segments > MOST_TRIANGLES and strands.counts.max() > 3:
         strands = _coarsened(strands)
-        if 2 * SIDES[-1] * strands.segments <= MOST_TRIANGLES:
-            fits = [(SIDES[-1], 1)]
-    if not fits:
-        most = MOST_TRIANGLES * len(strands.counts) / (2 * SIDES[-1] * strands.segments)
+    if 2 * fewest[0] * strands.segments > MOST_TRIANGLES:
+        most = MOST_TRIANGLES * len(strands.counts) / (2 * fewest[0] * strands.segments)
         before = len(strands.counts)
         strands = _thinned(strands, max(int(most), 1))
         kept = len(strands.counts) / before
-    sides, parts = fits[0] if fits else (SIDES[-1], 1)
+    fits = (level for level in FINENESS if 2 * level[0] * level[1] * strands.segments <= MOST_TRIANGLES)
+    sides, parts = next(fits, fewest)
     return Tubes(_mesh(name, subdivided(strands, parts), sides), kept)
 
 
@@ -271,7 +285,7 @@ def _mesh(name: str, strands: Strands, sides: int) -> Mesh:
         name,
         vertices.reshape(-1, 3).astype(np.float32),
         triangles.astype(np.uint32),
-        normals.reshape(-1, 3).astype(np.float32),
+        normals.reshape(-1, 3).astype(np.float32) if sides >= LEAST_SMOOTH else None,
         attributes=tuple(
             Attribute(key, "face", np.ascontiguousarray(values[rows], np.float32)) for key, values in strands.values
         ),

@@ -58,7 +58,7 @@ def test_a_strand_that_turns_at_right_angles_keeps_its_width() -> None:
     mesh = tubes("Hair", Strands(corners, np.full(5, 0.01), np.array([5]))).mesh
     assert np.isfinite(mesh.vertices).all()
     assert np.isfinite(mesh.normals).all() if mesh.normals is not None else False
-    rings = mesh.vertices.reshape(-1, 6, 3)
+    rings = mesh.vertices.reshape(-1, 12, 3)
     widths = np.linalg.norm(rings - rings.mean(axis=1, keepdims=True), axis=2)
     np.testing.assert_allclose(widths, widths[0, 0], rtol=1e-4)
 
@@ -70,6 +70,7 @@ def test_no_more_triangles_than_the_bound(most: int, monkeypatch: pytest.MonkeyP
     found = tubes("Hair", many)
     assert len(found.mesh.triangles) <= most
     assert (found.kept < 1.0) == (most < 100 * 2 * 6)
+    assert (found.mesh.normals is None) == (most < 100 * 8 * 12)
     # What is left shows as much as all would.
     assert area(found.mesh) == pytest.approx(100 * 2.0 * np.pi * 0.01, rel=0.02)
 
