@@ -137,7 +137,7 @@ BENCHMARK(embree_occluded);
 
 void accel_occluded(benchmark::State &state) {
     const Accel &accel = *World::get().scene.accel;
-    run(state, [&](const Ray &ray) { return accel.occluded(ray); });
+    run(state, [&](const Ray &ray) { return accel.occluded(ray, RayKind::shadow); });
 }
 BENCHMARK(accel_occluded);
 

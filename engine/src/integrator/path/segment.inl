@@ -104,7 +104,7 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
     if (hit.instance == kNone) {
         const uint32_t light = scene().lights.of_sphere(hit.primitive);
         weight = state.is_camera_segment() ? context_.primary_weight : emission_mis_weight(state, light, {hit.t});
-        if constexpr (F.transparency)
+        if constexpr (F.transparency && F.meets_lights())
             if (state.emission_mode != EmissionMode::skip && is_far_side(state, hit, surface))
                 weight = 1;
     } else if (F.other_lights) {
