@@ -309,7 +309,8 @@ def seen_in(kind: str, visible: str, **inputs: Any) -> None:
     if kind == "ShaderNodeBsdfGlossy":
         bpy.data.objects["Floor"].data.materials[0] = inside.material(kind, "GGX", **inputs)
     else:
-        inside.ball("Glass", inside.material(kind, **inputs), (0.0, -2.2, 2.4), 16)
+        glass = inside.ball("Glass", inside.material(kind, **inputs), (0.0, -2.2, 2.4), 16)
+        glass.data.polygons.foreach_set("use_smooth", [False] * len(glass.data.polygons))
 
 
 def lamp_seen_by(*hidden: str, **settings: Any) -> None:
@@ -358,7 +359,8 @@ def world_not_seen() -> None:
     scene = inside.empty_scene((0.5, 0.6, 0.9))
     scene.world.cycles_visibility.camera = False
     inside.plane(size=2.0, material=inside.material("ShaderNodeBsdfDiffuse", Color=OCHRE))
-    inside.ball("Ball", inside.material("ShaderNodeBsdfGlossy", "GGX", Roughness=0.3), segments=16)
+    ball = inside.ball("Ball", inside.material("ShaderNodeBsdfGlossy", "GGX", Roughness=0.3), segments=16)
+    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
 
 
 def by_a_wall(**settings: Any) -> None:
