@@ -177,7 +177,7 @@ def differences() -> None:
     empty = bpy.data.objects.new("Empty", None)
     empty.instance_type, empty.instance_collection = "COLLECTION", collection
     scene.collection.objects.link(empty)
-    inside.lamp("AREA", (0.0, 0.0, 4.0), spread=0.5)
+    inside.lamp("AREA", (0.0, 0.0, 4.0), energy=-1.0)
     scene.camera.data.dof.use_dof, scene.camera.data.dof.aperture_ratio = True, 2.0
     missing = inside.plane("Hidden", 1.0, inside.material("ShaderNodeBsdfToon"))
     missing.hide_render = True
