@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bsdf/bsdf.h"
 #include "bsdf/dielectric.h"
+#include "bsdf/ggx_albedo.h"
 #include "probe.h"
 
+#include <cmath>
 #include <vector>
 
 using namespace glimmer;
 using namespace glimmer::probe;
 
 struct probe_lobe {
-    int32_t type; // 0 Lambert, 1 mirror, 2 conductor, 3 report metal, 4 dielectric, 5 transparent, 6 translucent, 7
-                  // Oren-Nayar
-    int32_t use_f0, masking, flag;       // flag: Schlick of a dielectric, multiple scattering of Oren-Nayar
-    float weight, alpha;                 // alpha: roughness of Oren-Nayar
-    float color[3], eta[3], k[3], f0[3]; // of a dielectric: transmission, (ior, 0: refraction only, -), -, reflection
+    // 0 Lambert, 1 mirror, 2 conductor, 3 report metal, 4 dielectric, 5 transparent, 6 translucent, 7 Oren-Nayar, 8
+    // Burley, 9 sheen, 10 brushed
+    int32_t type;
+    // flag: Schlick of a dielectric, multiple scattering of what else is rough, the model of a sheen; above: see
+    // WeightedLobe
+    int32_t use_f0, masking, flag, above;
+    float weight, alpha, cover; // alpha: roughness of what is diffuse
+    // Of a dielectric: transmission, (ior, 0: refraction only, 1: multiple scattering), -, reflection. eta of what is
+    // brushed: both widths, the turn of the tangent.
+    float color[3], eta[3], k[3], f0[3];
+    float curve_ior, f82[3]; // of a conductor
 };
 
 /// eta: index beyond / index on the side of wo.
@@ -32,19 +40,42 @@ static Surface make(const probe_lobe *lobes, uint64_t count, float eta) {
         else if (l.type == 1)
             lobe = Mirror{load_rgb(l.color)};
         else if (l.type == 2)
-            lobe = Conductor{l.alpha,       l.use_f0 != 0,  load_rgb(l.eta),
-                             load_rgb(l.k), load_rgb(l.f0), static_cast<Masking>(l.masking)};
+            lobe = Conductor{l.alpha,       l.use_f0 != 0,   load_rgb(l.eta),
+                             load_rgb(l.k), load_rgb(l.f0),  static_cast<Masking>(l.masking),
+                             Rgb(1),        load_rgb(l.f82), l.curve_ior,
+                             l.flag != 0};
         else if (l.type == 3)
             lobe = BaselineMetal{load_rgb(l.color), load_rgb(l.f0), l.alpha};
         else if (l.type == 4)
-            lobe = Dielectric{l.eta[0], l.alpha, l.flag != 0, l.eta[1] != 0, load_rgb(l.f0), load_rgb(l.color)};
+            lobe = Dielectric{l.eta[0],       l.alpha,           l.flag != 0,  l.eta[1] != 0,
+                              load_rgb(l.f0), load_rgb(l.color), l.eta[2] == 1};
         else if (l.type == 5)
             lobe = Transparent{load_rgb(l.color)};
         else if (l.type == 6)
             lobe = Translucent{load_rgb(l.color)};
-        else
+        else if (l.type == 7)
             lobe = OrenNayar{load_rgb(l.color), l.alpha, l.flag != 0};
-        out.push_back({lobe, l.weight, 0});
+        else if (l.type == 8)
+            lobe = Burley{load_rgb(l.color), l.alpha};
+        else if (l.type == 9)
+            lobe = Sheen{load_rgb(l.color), l.alpha, static_cast<SheenModel>(l.flag)};
+        else
+            lobe = Brushed{Conductor{std::sqrt(l.eta[0] * l.eta[1]),
+                                     true,
+                                     {},
+                                     {},
+                                     load_rgb(l.f0),
+                                     Masking::Smith,
+                                     Rgb(1),
+                                     Rgb(1),
+                                     0,
+                                     l.flag != 0},
+                           l.eta[0],
+                           l.eta[1],
+                           {},
+                           0,
+                           circle_point(1, l.eta[2])};
+        out.push_back({lobe, l.weight, 0, uint32_t(l.above), l.cover});
     }
     set_probabilities(out);
     surface.bsdf = Bsdf(out);
@@ -75,6 +106,26 @@ PROBE void probe_bsdf_sample(const probe_lobe *lobes, uint64_t count, float eta,
         store(weight + 3 * i, s->weight);
         pdf_out[i] = s->pdf;
     }
+}
+
+/// The weights [n, 3] that the samples of probe_bsdf_sample have where light flows the other way; 0 where there is
+/// none.
+PROBE void probe_bsdf_adjoint(const probe_lobe *lobes, uint64_t count, float eta, const float *wo, const float *u_lobe,
+                              const float *u, uint64_t n, float *weight) {
+    const Surface surface = make(lobes, count, eta);
+    for (uint64_t i = 0; i < n; ++i)
+        if (const auto s = sample(surface.bsdf, load3(wo), u_lobe[i], load2(u + 2 * i)))
+            store(weight + 3 * i, adjoint_weight(surface.bsdf, load3(wo), *s));
+}
+
+/// kind: 0 GGX, 1 its mean, 2 rise of Fresnel's reflectance, 3 dielectric. cosine, alpha, ior, out: [n].
+PROBE void probe_ggx_albedo(int kind, const float *cosine, const float *alpha, const float *ior, uint64_t n,
+                            float *out) {
+    for (uint64_t i = 0; i < n; ++i)
+        out[i] = kind == 0   ? ggx_albedo(cosine[i], alpha[i])
+                 : kind == 1 ? mean_ggx_albedo(alpha[i])
+                 : kind == 2 ? mean_fresnel_rise(cosine[i], alpha[i], ior[i])
+                             : ggx_dielectric_albedo(cosine[i], alpha[i], ior[i]);
 }
 
 /// select [count], albedo [3], flags [2]: is_specular, has_specular; max_value [1].

@@ -170,6 +170,15 @@ def light_close_above_metal() -> Builder:
     return scene.sphere((3, 4, 3), 0.5, d.Light(grey(10)))
 
 
+def layers_in_fog() -> Builder:
+    """Surfaces that reflect more or less by where they are seen from: light from them must know where it goes."""
+    rough = d.Conductor(1, f0=grey(0.95), facets="multiple")
+    scene = field(d.Medium(grey(0.01), grey(0.06)), d.Layer(0.6, d.Sheen(WHITE, 0.5), rough))
+    plastic = d.Layer(1, d.Conductor(0.2, f0=grey(0.2), ior=2.6, facets="multiple"), d.Lambert(grey(0.8)))
+    scene.sphere((1.6, 4, 1), 0.7, plastic)
+    return scene.sphere((-0.5, 5, 1.6), 1, d.Layer(1, plastic.a, d.Glass(1.5, 0.7, facets="multiple")))
+
+
 def metal_seen_in_a_mirror() -> Builder:
     """The same seen in a mirror, where nothing is splatted: what no vertex holds of it is brought by paths alone."""
     scene = Builder(camera((3, -2, 2.2), (3, -4, 2.2), 30), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
@@ -233,6 +242,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "smooth metal": lambda: field(d.Medium(grey(0.01), grey(0.06)), d.Conductor(0.05, f0=grey(0.8))),
     "glass": glass_in_fog,
     "light by way of metal": light_by_way_of_metal,
+    "layers": layers_in_fog,
     "light by way of metal, in a mirror": metal_seen_in_a_mirror,
     "light by way of metal, forward": lambda: light_by_way_of_metal(0.4),
     "light close above metal": light_close_above_metal,

@@ -1,29 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface's BSDF: a weighted sum of lobes. See bsdf/sample.h for the conventions.
+// A surface's BSDF: a weighted sum of lobes, some of which may lie beneath others. See bsdf/sample.h for the
+// conventions.
 #pragma once
 
 #include "bsdf/baseline_metal.h"
+#include "bsdf/brushed.h"
+#include "bsdf/burley.h"
 #include "bsdf/conductor.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/lambert.h"
 #include "bsdf/mirror.h"
 #include "bsdf/oren_nayar.h"
 #include "bsdf/sample.h"
+#include "bsdf/sheen.h"
 #include "bsdf/translucent.h"
 #include "bsdf/transparent.h"
 
+#include <bit>
 #include <optional>
 #include <span>
 #include <variant>
 
 namespace glimmer {
 
-using Lobe = std::variant<Lambert, Mirror, Conductor, BaselineMetal, Dielectric, Transparent, Translucent, OrenNayar>;
+using Lobe = std::variant<Lambert, Mirror, Conductor, BaselineMetal, Dielectric, Transparent, Translucent, OrenNayar,
+                          Burley, Sheen, Brushed>;
 
 struct WeightedLobe {
     Lobe lobe;
-    float weight;      ///< factor of the lobe in the sum, >= 0
-    float probability; ///< probability of sampling it; sums to 1 over a Bsdf (see set_probabilities)
+    float weight;       ///< factor of the lobe in the sum, >= 0
+    float probability;  ///< probability of sampling it; sums to 1 over a Bsdf (see set_probabilities)
+    uint32_t above = 0; ///< a bit for each of the Bsdf's first lobes that lie above this one and keep light from it
+    float cover = 1;    ///< part of what lies beneath that this lobe is above of
+
+    static constexpr uint32_t kMostAbove = 32;
 };
 
 /// A view; the lobes live in the scene or in an arena. May be empty (black).
@@ -43,6 +53,43 @@ inline Rgb albedo(const Lobe &lobe) {
 inline float max_value(const Lobe &lobe) {
     return std::visit([](const auto &l) { return max_value(l); }, lobe);
 }
+/// Part of the light towards wo that a lobe keeps from what lies beneath it.
+inline float coverage(const Lobe &lobe, const Vec3f &wo) {
+    return std::visit(
+        [&]<class T>(const T &l) {
+            if constexpr (std::is_same_v<T, Conductor> || std::is_same_v<T, Brushed> || std::is_same_v<T, Sheen>)
+                return std::min(max_component(coverage(l, wo)), 1.0f);
+            else
+                return std::min(max_component(albedo(l)), 1.0f);
+        },
+        lobe);
+}
+/// Part of the light towards wo that the lobes above one leave to it.
+[[gnu::noinline]] inline float uncovered(const Bsdf &bsdf, const WeightedLobe &lobe, const Vec3f &wo) {
+    float share = 1;
+    for (uint32_t above = lobe.above; above; above &= above - 1) {
+        const WeightedLobe &a = bsdf[size_t(std::countr_zero(above))];
+        share *= std::max(0.0f, 1 - a.cover * coverage(a.lobe, wo));
+    }
+    return share;
+}
+/// The lobe's factor in the sum as it is seen from wo.
+inline float weight_towards(const Bsdf &bsdf, const WeightedLobe &lobe, const Vec3f &wo) {
+    return lobe.above ? lobe.weight * uncovered(bsdf, lobe, wo) : lobe.weight;
+}
+/// Whether f(wo, wi) is f(wi, wo).
+inline bool is_reciprocal(const Bsdf &bsdf) {
+    for (const WeightedLobe &l : bsdf) {
+        const auto *metal = std::get_if<Conductor>(&l.lobe);
+        const auto *dielectric = std::get_if<Dielectric>(&l.lobe);
+        const auto *sheen = std::get_if<Sheen>(&l.lobe);
+        const auto *brushed = std::get_if<Brushed>(&l.lobe);
+        if (l.above || (brushed && brushed->metal.multiple_scattering) || (metal && metal->multiple_scattering) ||
+            (dielectric && dielectric->multiple_scattering) || (sheen && sheen->model == SheenModel::fibers))
+            return false;
+    }
+    return true;
+}
 /// Whether light passes to the other side.
 inline bool transmits(const Lobe &lobe) {
     return std::holds_alternative<Dielectric>(lobe) || std::holds_alternative<Transparent>(lobe) ||
@@ -51,7 +98,8 @@ inline bool transmits(const Lobe &lobe) {
 
 inline bool is_diffuse(const Lobe &lobe) {
     return std::holds_alternative<Lambert>(lobe) || std::holds_alternative<OrenNayar>(lobe) ||
-           std::holds_alternative<Translucent>(lobe);
+           std::holds_alternative<Translucent>(lobe) || std::holds_alternative<Burley>(lobe) ||
+           std::holds_alternative<Sheen>(lobe);
 }
 
 template <class T>
@@ -93,7 +141,7 @@ inline std::optional<BsdfSample> sample(const Lobe &lobe, const Vec3f &wo, Vec2f
 inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
     Rgb sum;
     for (const WeightedLobe &l : bsdf)
-        sum += eval(l.lobe, wo, wi, bsdf.eta) * l.weight;
+        sum += eval(l.lobe, wo, wi, bsdf.eta) * weight_towards(bsdf, l, wo);
     return sum;
 }
 
@@ -102,7 +150,7 @@ inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi, bool diffuse
     Rgb sum;
     for (const WeightedLobe &l : bsdf)
         if (wi.z < 0 ? transmission : is_diffuse(l.lobe) ? diffuse : glossy)
-            sum += eval(l.lobe, wo, wi, bsdf.eta) * l.weight;
+            sum += eval(l.lobe, wo, wi, bsdf.eta) * weight_towards(bsdf, l, wo);
     return sum;
 }
 
@@ -135,15 +183,35 @@ inline std::optional<BsdfSample> sample(const Bsdf &bsdf, const Vec3f &wo, float
     if (!s)
         return std::nullopt;
     s->diffuse = is_diffuse(chosen->lobe);
+    s->lobe = uint32_t(chosen - bsdf.data());
     if (s->specular || smooth == 1) {
-        s->weight *= chosen->weight / chosen->probability;
+        s->weight *= weight_towards(bsdf, *chosen, wo) / chosen->probability;
         s->pdf *= chosen->probability;
         return s;
     }
     const float density = pdf(bsdf, wo, s->wi);
     if (!(density > 0))
         return std::nullopt;
-    return BsdfSample{s->wi, eval(bsdf, wo, s->wi) / density, density, false, s->transmitted, s->diffuse};
+    return BsdfSample{s->wi, eval(bsdf, wo, s->wi) / density, density, false, s->transmitted, s->diffuse, s->lobe};
+}
+
+/// The weight of a sample drawn for wo where light comes from wo and leaves to s.wi, about the same normal: f that is
+/// seen from s.wi times |cos| of s.wi over the density.
+inline Rgb adjoint_weight(const Bsdf &bsdf, const Vec3f &wo, const BsdfSample &s) {
+    if (is_reciprocal(bsdf))
+        return s.weight;
+    Bsdf there = bsdf; // as it is seen from s.wi
+    Vec3f out = s.wi, in = wo;
+    if (s.transmitted) {
+        there.eta = 1 / bsdf.eta;
+        out.z = -out.z;
+        in.z = -in.z;
+    }
+    if (s.specular) {
+        const float seen = uncovered(bsdf, bsdf[s.lobe], wo);
+        return seen > 0 ? s.weight * (uncovered(there, bsdf[s.lobe], out) / seen) : Rgb();
+    }
+    return eval(there, out, in) * (out.z / std::abs(in.z) / s.pdf);
 }
 
 /// Delta lobes alone: light sampling finds nothing here.
@@ -185,7 +253,7 @@ inline float max_value(const Bsdf &bsdf) {
 inline Rgb albedo(const Bsdf &bsdf) {
     Rgb sum;
     for (const WeightedLobe &l : bsdf)
-        sum += albedo(l.lobe) * l.weight;
+        sum += albedo(l.lobe) * weight_towards(bsdf, l, {0, 0, 1});
     return sum;
 }
 

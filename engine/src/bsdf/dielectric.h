@@ -5,6 +5,7 @@
 
 #include "bsdf/fresnel.h"
 #include "bsdf/ggx.h"
+#include "bsdf/ggx_albedo.h"
 #include "bsdf/sample.h"
 #include "math/vec.h"
 
@@ -14,12 +15,14 @@
 namespace glimmer {
 
 struct Dielectric {
-    float ior = 1.5f;          ///< of the body, > 0
-    float alpha = 0;           ///< GGX width, 0 to 1; smooth below kSmoothAlpha
-    bool schlick = false;      ///< Schlick's approximation in place of the exact reflectance
-    bool reflects = true;      ///< else all light is refracted that can be, whatever Fresnel's equations say
-    Rgb reflection = Rgb(1);   ///< colour of what is reflected
-    Rgb transmission = Rgb(1); ///< and of what is transmitted, at each crossing
+    float ior = 1.5f;                 ///< of the body, > 0
+    float alpha = 0;                  ///< GGX width, 0 to 1; smooth below kSmoothAlpha
+    bool schlick = false;             ///< Schlick's approximation in place of the exact reflectance
+    bool reflects = true;             ///< else all light is refracted that can be, whatever Fresnel's equations say
+    Rgb reflection = Rgb(1);          ///< colour of what is reflected
+    Rgb transmission = Rgb(1);        ///< and of what is transmitted, at each crossing
+    bool multiple_scattering = false; ///< what facets send on to each other is added
+    Masking masking = Masking::Smith; ///< not SchlickGgx
 };
 
 inline bool is_specular(const Dielectric &lobe) {
@@ -62,9 +65,11 @@ inline std::optional<Vec3f> refraction_normal(const Vec3f &wo, const Vec3f &wi, 
     return h;
 }
 
-/// D G2 / (4 cos_o cos_i) times what is left of the factors: for both sides, heights correlated.
-inline float ggx_masking_across(const Vec3f &wo, const Vec3f &wi, float alpha) {
+/// D G2 / (4 cos_o cos_i) times what is left of the factors: for both sides.
+inline float ggx_masking_across(const Vec3f &wo, const Vec3f &wi, float alpha, Masking masking = Masking::Smith) {
     const float a_i = ggx_projected(wi, alpha), a_o = ggx_projected(wo, alpha), z_i = std::abs(wi.z);
+    if (masking == Masking::SmithSeparable)
+        return 4 * wo.z * z_i / ((z_i + a_i) * (wo.z + a_o));
     return 2 * wo.z * z_i / (z_i * a_o + wo.z * a_i);
 }
 
@@ -81,7 +86,7 @@ struct DielectricValue {
         const float r = reflectance(lobe, std::min(1.0f, dot(wo, h)), eta), d = ggx_d(h, lobe.alpha);
         if (!lobe.reflects)
             return {};
-        return {lobe.reflection * (r * d * ggx_visibility(wo, wi, lobe.alpha, Masking::Smith) * wi.z),
+        return {lobe.reflection * (r * d * ggx_visibility(wo, wi, lobe.alpha, lobe.masking) * wi.z),
                 r * visible * d / 4};
     }
     if (!(wi.z < 0) || eta == 1)
@@ -95,12 +100,22 @@ struct DielectricValue {
     const float jacobian = eta * eta * cos_i / (across * across); // of h by wi
     if (!(t > 0) || !(jacobian < kInfinity))
         return {};
-    return {lobe.transmission * (t * d * ggx_masking_across(wo, wi, lobe.alpha) * cos_o * jacobian / wo.z),
+    return {lobe.transmission *
+                (t * d * ggx_masking_across(wo, wi, lobe.alpha, lobe.masking) * cos_o * jacobian / wo.z),
             t * visible * d * cos_o * jacobian};
 }
 
+/// Of the light that facets send on to each other most is transmitted in the end: it has that colour, as in Cycles.
+inline Rgb multiple_scattering_scale(const Dielectric &lobe, const Vec3f &wo, float eta) {
+    return multiple_scattering_scale(ggx_dielectric_albedo(wo.z, lobe.alpha, eta),
+                                     mean_ggx_dielectric_albedo(lobe.alpha, eta), lobe.transmission);
+}
+
 inline Rgb eval(const Dielectric &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
-    return is_specular(lobe) ? Rgb() : rough_dielectric(lobe, wo, wi, eta).f;
+    if (is_specular(lobe))
+        return {};
+    const Rgb once = rough_dielectric(lobe, wo, wi, eta).f;
+    return lobe.multiple_scattering ? once * multiple_scattering_scale(lobe, wo, eta) : once;
 }
 inline float pdf(const Dielectric &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
     return is_specular(lobe) ? 0 : rough_dielectric(lobe, wo, wi, eta).pdf;
@@ -138,21 +153,24 @@ inline Vec3f sample_visible_normal(const Vec3f &wo, float alpha, Vec2f u) {
     // Weights are of the normal that was drawn: G2 / G1, whatever rounding makes of the normal between wo and wi.
     const float visible = 2 / (wo.z + ggx_projected(wo, lobe.alpha)), d = ggx_d(h, lobe.alpha);
     if (!transmitted)
-        return BsdfSample{wi,
-                          lobe.reflection * (4 * ggx_visibility(wo, wi, lobe.alpha, Masking::Smith) * wi.z / visible),
+        return BsdfSample{wi, lobe.reflection * (4 * ggx_visibility(wo, wi, lobe.alpha, lobe.masking) * wi.z / visible),
                           r * visible * d / 4, false, false};
     const float cos_i = -dot(wi, h), across = cos_o - eta * cos_i;
     const float density = (1 - r) * visible * d * cos_o * eta * eta * cos_i / (across * across);
     if (!(density > 0) || !(density < kInfinity))
         return std::nullopt;
-    return BsdfSample{wi, lobe.transmission * (ggx_masking_across(wo, wi, lobe.alpha) / (wo.z * visible)), density,
-                      false, true};
+    return BsdfSample{wi, lobe.transmission * (ggx_masking_across(wo, wi, lobe.alpha, lobe.masking) / (wo.z * visible)),
+                      density, false, true};
 }
 
 /// Reflection or refraction, chosen by the reflectance. u_choice: the number that chooses.
 inline std::optional<BsdfSample> sample(const Dielectric &lobe, const Vec3f &wo, Vec2f u, float eta, float u_choice) {
-    if (!is_specular(lobe))
-        return sample_rough_dielectric(lobe, wo, u, eta, u_choice);
+    if (!is_specular(lobe)) {
+        auto s = sample_rough_dielectric(lobe, wo, u, eta, u_choice);
+        if (s && lobe.multiple_scattering)
+            s->weight *= multiple_scattering_scale(lobe, wo, eta);
+        return s;
+    }
     const float r = reflectance(lobe, wo.z, eta);
     if (u_choice < r) {
         if (!lobe.reflects)

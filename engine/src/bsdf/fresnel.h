@@ -64,6 +64,28 @@ inline Rgb fresnel_schlick(float cos_i, const Rgb &f0, const Rgb &f90 = Rgb(1)) 
     return f0 + (f90 - f0) * schlick_weight(cos_i);
 }
 
+/// The exact reflectance between dielectrics as a curve from 0 at normal incidence to 1 at grazing: (F - F0) / (1 -
+/// F0).
+inline float fresnel_rise(float cos_i, float eta) {
+    const float r = (eta - 1) / (eta + 1), f0 = r * r;
+    return f0 < 1 ? std::clamp((fresnel_dielectric(cos_i, eta) - f0) / (1 - f0), 0.0f, 1.0f) : 1.0f;
+}
+
+/// Reflectance of a dielectric over all directions from outside, weighted by their cosines (fits of Kulla and Conty
+/// 2017).
+inline float mean_fresnel_dielectric(float eta) {
+    return eta < 1 ? 0.997118f + eta * (0.1014f - eta * (0.965241f + eta * 0.130607f))
+                   : (eta - 1) / (4.08567f + 1.00071f * eta);
+}
+
+/// How far below Schlick's curve a metal is near 82 degrees, where cos = 1/7: Schlick's times f82 there (Kutz, Hasan,
+/// Edmondson 2021, "Novel aspects of the Adobe Standard Material"). The curve is Schlick's less this times
+/// cos (1 - cos)^6.
+inline Rgb fresnel_f82_dip(const Rgb &f0, const Rgb &f90, const Rgb &f82) {
+    constexpr float kCos = 1.0f / 7, kRest2 = (1 - kCos) * (1 - kCos), kShape = kCos * kRest2 * kRest2 * kRest2;
+    return fresnel_schlick(kCos, f0, f90) * (Rgb(1) - f82) * (1 / kShape);
+}
+
 /// Schlick's approximation between dielectrics: the cosine is taken on the rarer side, so that it joins total
 /// reflection.
 inline float fresnel_dielectric_schlick(float cos_i, float eta) {

@@ -17,6 +17,7 @@ struct OrenNayar {
     Rgb albedo;                       ///< of a facet
     float roughness = 0;              ///< 0 to 1; 0 is Lambert's lobe
     bool multiple_scattering = false; ///< what facets send on to each other is added
+    bool tinted = false;              ///< that light has the albedo once more, as in Cycles: darker than energy allows
 
     /// 1 / (pi + (pi/2 - 2/3) roughness): f of single scattering is albedo a (1 + roughness s / t).
     float a() const { return 1 / (kPi + (kPi / 2 - 2.0f / 3) * roughness); }
@@ -46,7 +47,7 @@ inline Rgb eval(const OrenNayar &lobe, const Vec3f &wo, const Vec3f &wi) {
         const float there = 1 - single_albedo(lobe, wo.z), back = 1 - single_albedo(lobe, wi.z);
         for (int c = 0; c < 3; ++c)
             f[c] += lobe.albedo[c] * lobe.albedo[c] * mean / (1 - lobe.albedo[c] * lost) / kPi *
-                    (lost > 0 ? there * back / lost : 0);
+                    (lost > 0 ? there * back / lost : 0) * (lobe.tinted ? lobe.albedo[c] : 1);
     }
     return f * wi.z;
 }

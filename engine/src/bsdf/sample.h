@@ -7,12 +7,17 @@
 // whose sample is the only way in. A sample that would leave on a side that the lobe does not know is std::nullopt: it
 // carries nothing, and stays in the count.
 //
+// Some lobes are not reciprocal: what they keep of the light depends on wo alone. Then wo is the side of the camera, in
+// eval and in the weights of samples; paths from lights see to that (adjoint_weight in bsdf/bsdf.h).
+//
 // At the boundary of a dielectric eta is the index of refraction on the other side over that on the side of wo. Across
 // it radiance / n^2 is what is conserved, and values and weights are those of that quantity: a path that carries
 // radiance scales what it transmits by 1 / eta^2, one that carries flux scales nothing.
 #pragma once
 
 #include "math/vec.h"
+
+#include <cstdint>
 
 namespace glimmer {
 
@@ -23,6 +28,7 @@ struct BsdfSample {
     bool specular;            ///< from a delta distribution
     bool transmitted = false; ///< wi is on the other side
     bool diffuse = false;     ///< of a diffuse lobe; set for a whole Bsdf alone
+    uint32_t lobe = 0;        ///< of the Bsdf: which one was drawn
 };
 
 } // namespace glimmer

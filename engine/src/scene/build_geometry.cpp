@@ -68,8 +68,7 @@ void SceneBuilder::use(uint32_t index) {
 
 bool SceneBuilder::material_may_shine(uint32_t material) const {
     const MaterialDescription &m = description_.materials[material];
-    if ((m.type == MaterialType::mix || m.type == MaterialType::add) &&
-        (material_may_shine(m.a) || material_may_shine(m.b)))
+    if (has_parts(m) && (material_may_shine(m.a) || material_may_shine(m.b)))
         return true;
     return may_shine(m, m.bindings);
 }

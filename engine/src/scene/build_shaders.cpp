@@ -58,7 +58,7 @@ MaterialBounds SceneBuilder::bounds_of_varying(uint32_t material, float &interio
     MaterialBounds bounds;
     for (WeightedLobe &l : flat.lobes) {
         if (auto *conductor = std::get_if<Conductor>(&l.lobe); conductor && !conductor->use_f0)
-            *conductor = {conductor->alpha, true, {}, {}, Rgb(1), conductor->masking, Rgb(1)};
+            conductor->use_f0 = true, conductor->f0 = Rgb(1);
         bounds.specular |= is_specular(l.lobe);
         bounds.transmits |= transmits(l.lobe);
         bounds.max_value += max_value(l.lobe);

@@ -70,7 +70,7 @@ void SceneBuilder::list_left_out() {
     for (size_t i = 0; i < used_.size(); ++i)
         unused += !used_[i];
     for (const MaterialDescription &m : description_.materials)
-        if (m.type == MaterialType::mix || m.type == MaterialType::add) // its parts are used by name only
+        if (has_parts(m)) // its parts are used by name only
             unused -= size_t(!used_[m.a]) + size_t(m.b != m.a && !used_[m.b]);
     if (unused > 0 && unused <= used_.size())
         out.push_back(count(unused, "material") + " of " + std::to_string(used_.size()) + " that nothing is made of");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bsdf/ggx.h"
+#include "bsdf/sheen.h"
 #include "math/vec.h"
 
 #include <cstdint>
@@ -23,12 +24,15 @@ enum class MaterialType : uint8_t {
     add,
     transparent,
     translucent,
+    burley,
+    sheen,
+    layer,
     count
 };
 
 enum class DielectricFresnel : uint8_t { exact, schlick };
 enum class DielectricLobes : uint8_t { both, refraction };
-enum class FacetScattering : uint8_t { single, multiple };
+enum class FacetScattering : uint8_t { single, multiple, tinted };
 
 /// A parameter that an output of a program gives.
 struct ParameterBinding {
@@ -47,14 +51,19 @@ struct MaterialDescription {
 
     Rgb albedo, reflectance, radiance, emission;
     float alpha = 0; ///< GGX width
-    Rgb eta, k, f0, f90{1};
+    Rgb eta, k, f0, f90{1}, f82{1};
+    float aspect = 1, rotation = 0; ///< of a conductor: alpha across the tangent / geometric mean; turns
+    Rgb tangent;                    ///< its direction in the world
     Masking masking = Masking::Smith;
     float ior = 1;
+    float curve_ior = 0; ///< of a conductor's curve from f0 to f90
     DielectricFresnel fresnel = DielectricFresnel::exact;
     float roughness = 0;
     FacetScattering facets = FacetScattering::single;
     Rgb reflection{1}, transmission{1}, transmittance;
     DielectricLobes lobes = DielectricLobes::both;
+    Rgb color;
+    SheenModel model = SheenModel::fibers;
     float weight = 0;
     uint32_t a = 0, b = 0; ///< materials before this one
 

@@ -28,6 +28,9 @@ inline constexpr std::array kMaterials = std::to_array<glimmer_material_info_t>(
     {"add", 1, "two materials on top of each other, each at full strength"},
     {"transparent", 1, "a part of light goes straight through, shadow rays included; with glass it enters the body"},
     {"translucent", 1, "diffuse transmission: a diffuse lobe on the other side"},
+    {"burley", 1, "Disney's diffuse surface (Burley 2012): not energy conserving"},
+    {"sheen", 1, "cloth's shine towards grazing angles"},
+    {"layer", 1, "a material on top of another, which gets what the upper one leaves to it"},
 });
 static_assert(kMaterials.size() == size_t(MaterialType::count));
 
@@ -37,7 +40,8 @@ struct ParameterRow {
     glimmer_parameter_info_t info;
     std::variant<float MaterialDescription::*, Rgb MaterialDescription::*, uint32_t MaterialDescription::*,
                  Masking MaterialDescription::*, DielectricFresnel MaterialDescription::*,
-                 DielectricLobes MaterialDescription::*, FacetScattering MaterialDescription::*>
+                 DielectricLobes MaterialDescription::*, FacetScattering MaterialDescription::*,
+                 SheenModel MaterialDescription::*>
         member;
 };
 
@@ -49,6 +53,7 @@ struct Range {
     bool above_low = false;
 };
 inline constexpr Range kUnit{0, 1};
+inline constexpr Range kDirection{-1, 1};
 inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity()};
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 
@@ -112,8 +117,8 @@ inline constexpr std::array kParameters = [] {
     return std::to_array<ParameterRow>({
         color(T::lambert, "albedo", &D::albedo, kUnit, ""),
         optional(number(T::lambert, "roughness", &D::roughness, kUnit, "of Oren and Nayar, in Fujii's form"), 0),
-        word(T::lambert, "facets", &D::facets, "single multiple", "facet model",
-             "whether rough facets send light on to each other"),
+        word(T::lambert, "facets", &D::facets, "single multiple tinted", "facet model",
+             "whether rough facets send light on to each other; tinted: that light has the albedo once more"),
         emission(T::lambert),
 
         color(T::mirror, "reflectance", &D::reflectance, kUnit, ""),
@@ -124,8 +129,19 @@ inline constexpr std::array kParameters = [] {
         alternative(1, color(T::conductor, "k", &D::k, kNonNegative, "extinction coefficient")),
         alternative(2, color(T::conductor, "f0", &D::f0, kUnit, "reflectance at normal incidence: Schlick's")),
         alternative(2, optional(color(T::conductor, "f90", &D::f90, kUnit, "reflectance at grazing"), 1)),
+        alternative(2, optional(color(T::conductor, "f82", &D::f82, kUnit, "times Schlick's curve at 82 degrees"), 1)),
+        alternative(2, optional(number(T::conductor, "ior", &D::curve_ior, kNonNegative,
+                                       "from f0 to f90 by the curve of this index; 0: Schlick's"),
+                                0)),
         word(T::conductor, "masking", &D::masking, "smith smith_separable schlick_ggx", "masking function",
              "height-correlated Smith; separable Smith; the student report's, k = alpha/2"),
+        optional(number(T::conductor, "aspect", &D::aspect, kPositive,
+                        "alpha across the tangent is alpha times this, along it alpha over this"),
+                 1),
+        optional(color(T::conductor, "tangent", &D::tangent, kDirection, "direction in the world; 0: any"), 0),
+        optional(number(T::conductor, "rotation", &D::rotation, kUnit, "of the tangent about the normal, in turns"), 0),
+        word(T::conductor, "facets", &D::facets, "single multiple", "facet model",
+             "whether facets send light on to each other"),
         emission(T::conductor),
 
         number(T::glass, "ior", &D::ior, kPositive, "index of refraction; radiance scales with its square"),
@@ -135,6 +151,9 @@ inline constexpr std::array kParameters = [] {
         optional(color(T::glass, "transmission", &D::transmission, kUnit, "and of what is transmitted, each time"), 1),
         word(T::glass, "lobes", &D::lobes, "both refraction", "choice of lobes",
              "refraction alone refracts all light that can be refracted, and reflects none"),
+        word(T::glass, "facets", &D::facets, "single multiple", "facet model",
+             "whether facets send light on to each other"),
+        word(T::glass, "masking", &D::masking, "smith smith_separable", "masking function", ""),
         emission(T::glass),
 
         color(T::report_metal, "albedo", &D::albedo, kUnit, ""),
@@ -158,6 +177,21 @@ inline constexpr std::array kParameters = [] {
 
         color(T::translucent, "albedo", &D::albedo, kUnit, ""),
         emission(T::translucent),
+
+        color(T::burley, "albedo", &D::albedo, kUnit, ""),
+        number(T::burley, "roughness", &D::roughness, kUnit, ""),
+        emission(T::burley),
+
+        color(T::sheen, "color", &D::color, kUnit, ""),
+        optional(number(T::sheen, "roughness", &D::roughness, kUnit, "of fibers and velvet"), 0),
+        word(T::sheen, "model", &D::model, "fibers schlick velvet", "model of sheen",
+             "Zeltner, Burley, Chiang 2022; Schlick's weight; Ashikhmin, Premoze, Shirley 2000"),
+        emission(T::sheen),
+
+        number(T::layer, "weight", &D::weight, kUnit, "part of b that a is above of"),
+        material(T::layer, "a", &D::a, ""),
+        material(T::layer, "b", &D::b, ""),
+        emission(T::layer),
     });
 }();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shading/material_tree.h"
 
+#include "base/error.h"
 #include "shading/material_schema.h"
 
 #include <algorithm>
@@ -15,27 +16,47 @@ namespace {
 constexpr float kLeastVaryingAlpha = 1e-3f;
 constexpr float kLeastPositive = 1e-3f, kMost = 1e30f;
 
+Brushed to_brushed(const MaterialDescription &m, const Conductor &metal) {
+    return {metal, std::clamp(m.alpha / m.aspect, kSmoothAlpha, 1.0f),
+            std::clamp(m.alpha * m.aspect, kSmoothAlpha, 1.0f), Vec3f(m.tangent.r, m.tangent.g, m.tangent.b),
+            m.rotation};
+}
+
 /// A material that is a single lobe.
 Lobe to_lobe(const MaterialDescription &m) {
     switch (m.type) {
     case MaterialType::lambert:
         if (m.roughness > 0)
-            return OrenNayar{m.albedo, m.roughness, m.facets == FacetScattering::multiple};
+            return OrenNayar{m.albedo, m.roughness, m.facets != FacetScattering::single,
+                             m.facets == FacetScattering::tinted};
         return Lambert{m.albedo};
     case MaterialType::mirror:
         return Mirror{m.reflectance};
-    case MaterialType::conductor:
-        return Conductor{m.alpha, m.alternative == 2, m.eta, m.k, m.f0, m.masking, m.f90};
+    case MaterialType::conductor: {
+        const Conductor metal{m.alpha,     m.alternative == 2,
+                              m.eta,       m.k,
+                              m.f0,        m.masking,
+                              m.f90,       m.f82,
+                              m.curve_ior, m.facets == FacetScattering::multiple};
+        if (m.aspect != 1 && !is_specular(metal))
+            return to_brushed(m, metal);
+        return metal;
+    }
     case MaterialType::report_metal:
         return BaselineMetal{m.albedo, m.f0, m.alpha};
     case MaterialType::glass:
         return Dielectric{
-            m.ior,        m.alpha,       m.fresnel == DielectricFresnel::schlick, m.lobes == DielectricLobes::both,
-            m.reflection, m.transmission};
+            m.ior,        m.alpha,        m.fresnel == DielectricFresnel::schlick, m.lobes == DielectricLobes::both,
+            m.reflection, m.transmission, m.facets == FacetScattering::multiple,   m.masking};
     case MaterialType::translucent:
         return Translucent{m.albedo};
+    case MaterialType::burley:
+        return Burley{m.albedo, m.roughness};
+    case MaterialType::sheen:
+        return Sheen{m.color, m.roughness, m.model};
     case MaterialType::mix:
     case MaterialType::add:
+    case MaterialType::layer:
     case MaterialType::transparent:
     case MaterialType::light:
     case MaterialType::null:
@@ -70,8 +91,30 @@ struct Put {
     void operator()(Other) const {} // words and parts do not vary
 };
 
-void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, float weight, const ProgramOutputs *outputs,
-                FlatMaterial &out) {
+/// Where a part of a tree stands in the sum.
+struct Standing {
+    float weight = 1;
+    uint32_t above = 0; ///< see WeightedLobe
+    float cover = 1;
+
+    Standing times(float share) const { return {weight * share, above, cover * share}; }
+};
+
+/// The bits of the lobes from one on.
+uint32_t lobes_from(size_t begin, const FlatMaterial &out, const MaterialDescription &layer) {
+    uint32_t bits = 0;
+    for (size_t i = begin; i < out.lobes.size(); ++i) {
+        if (i >= WeightedLobe::kMostAbove)
+            fail_argument("material \"" + layer.label + "\": a layer stands after more than " +
+                          std::to_string(WeightedLobe::kMostAbove) + " parts");
+        bits |= 1u << i;
+    }
+    return bits;
+}
+
+void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, const Standing &standing,
+                const ProgramOutputs *outputs, FlatMaterial &out) {
+    const float weight = standing.weight;
     const MaterialDescription *node = &nodes[index];
     MaterialDescription own;
     if (outputs && !outputs->bindings[index].empty()) {
@@ -87,13 +130,20 @@ void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, floa
         return;
     switch (m.type) {
     case MaterialType::mix:
-        add_leaves(nodes, m.a, weight * m.weight, outputs, out);
-        add_leaves(nodes, m.b, weight * (1 - m.weight), outputs, out);
+        add_leaves(nodes, m.a, standing.times(m.weight), outputs, out);
+        add_leaves(nodes, m.b, standing.times(1 - m.weight), outputs, out);
         break;
     case MaterialType::add:
-        add_leaves(nodes, m.a, weight, outputs, out);
-        add_leaves(nodes, m.b, weight, outputs, out);
+        add_leaves(nodes, m.a, standing, outputs, out);
+        add_leaves(nodes, m.b, standing, outputs, out);
         break;
+    case MaterialType::layer: {
+        const size_t begin = out.lobes.size();
+        add_leaves(nodes, m.a, {weight * m.weight, standing.above, m.weight}, outputs, out);
+        const uint32_t top = lobes_from(begin, out, m);
+        add_leaves(nodes, m.b, {weight, standing.above | top, standing.cover}, outputs, out);
+        break;
+    }
     case MaterialType::light:
         out.emission += m.radiance * weight;
         break;
@@ -104,7 +154,7 @@ void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, floa
         out.transparency += m.transmittance * weight;
         break;
     default:
-        out.lobes.push_back({to_lobe(m), weight, 0});
+        out.lobes.push_back({to_lobe(m), weight, 0, standing.above, standing.cover});
     }
 }
 
@@ -122,7 +172,7 @@ void flatten(std::span<const MaterialDescription> nodes, uint32_t index, const P
              FlatMaterial &out) {
     out.lobes.clear();
     out.emission = out.transparency = {};
-    add_leaves(nodes, index, 1, outputs, out);
+    add_leaves(nodes, index, {}, outputs, out);
     if (interior_ior(out.lobes) > 0 && !is_black(out.transparency)) { // what goes straight through enters the body, too
         out.lobes.push_back({Transparent{out.transparency}, 1, 0});
         out.transparency = {};
@@ -131,8 +181,8 @@ void flatten(std::span<const MaterialDescription> nodes, uint32_t index, const P
 
 bool varies(std::span<const MaterialDescription> nodes, uint32_t index) {
     const MaterialDescription &m = nodes[index];
-    const bool has_parts = m.type == MaterialType::mix || m.type == MaterialType::add;
-    return !m.bindings.empty() || (has_parts && (varies(nodes, m.a) || varies(nodes, m.b)));
+    const bool is_brushed = m.type == MaterialType::conductor && m.aspect != 1; // by its tangent
+    return !m.bindings.empty() || is_brushed || (has_parts(m) && (varies(nodes, m.a) || varies(nodes, m.b)));
 }
 
 } // namespace glimmer

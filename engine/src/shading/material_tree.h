@@ -6,6 +6,7 @@
 #include "shading/material_description.h"
 
 #include <span>
+#include <vector>
 
 namespace glimmer {
 
@@ -33,7 +34,13 @@ struct ProgramOutputs {
 void flatten(std::span<const MaterialDescription> nodes, uint32_t index, const ProgramOutputs *outputs,
              FlatMaterial &out);
 
-/// Whether a program gives anything of the material or of its parts.
+/// Whether the material is made of others.
+inline bool has_parts(const MaterialDescription &m) {
+    return m.type == MaterialType::mix || m.type == MaterialType::add || m.type == MaterialType::layer;
+}
+
+/// Whether the material or one of its parts is another one at each place: a program gives something of it, or it has a
+/// tangent.
 bool varies(std::span<const MaterialDescription> nodes, uint32_t index);
 
 } // namespace glimmer

@@ -14,7 +14,7 @@ namespace {
 
 size_t leaves(std::span<const MaterialDescription> nodes, uint32_t index) {
     const MaterialDescription &m = nodes[index];
-    if (m.type != MaterialType::mix && m.type != MaterialType::add)
+    if (!has_parts(m))
         return 1;
     return std::min(leaves(nodes, m.a) + leaves(nodes, m.b), ClosureArena::kMaxClosures + 1);
 }
@@ -33,7 +33,7 @@ void collect(const ShaderScene &scene, uint32_t index, VaryingMaterial &out) {
         if (std::ranges::find(out.programs, b.program) == out.programs.end())
             out.programs.push_back(b.program);
     out.shines |= may_shine(m, bindings);
-    if (m.type == MaterialType::mix || m.type == MaterialType::add) {
+    if (has_parts(m)) {
         collect(scene, m.a, out);
         collect(scene, m.b, out);
     }
@@ -189,6 +189,11 @@ Shading ShaderScene::shade(uint32_t varying, Interaction &surface, const View &v
     }
     const std::span<WeightedLobe> room = arena.take(flat.lobes.size());
     std::copy(flat.lobes.begin(), flat.lobes.end(), room.begin());
+    for (WeightedLobe &l : room)
+        if (auto *metal = std::get_if<Brushed>(&l.lobe)) {
+            const float side = dot(view.wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
+            set_frame(*metal, Frame(surface.shading_normal * side));
+        }
     set_probabilities(room);
     return {Bsdf(room), flat.emission, flat.transparency, interior_ior(room)};
 }

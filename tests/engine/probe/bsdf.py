@@ -11,7 +11,10 @@ from numpy.typing import ArrayLike
 
 from tests.engine.probe.call import Array, call, empty, f32
 
-LAMBERT, MIRROR, CONDUCTOR, REPORT_METAL, DIELECTRIC, TRANSPARENT, TRANSLUCENT, OREN_NAYAR = range(8)
+LAMBERT, MIRROR, CONDUCTOR, REPORT_METAL, DIELECTRIC, TRANSPARENT, TRANSLUCENT, OREN_NAYAR, BURLEY, SHEEN, BRUSHED = (
+    range(11)
+)
+FIBERS, SCHLICK_SHEEN, VELVET = range(3)
 SMITH, SMITH_SEPARABLE, SCHLICK_GGX = range(3)
 NOTHING, SMOOTH, SPECULAR = range(3)
 TRANSMITTED = 4  # added to the last two
@@ -19,9 +22,11 @@ TRANSMITTED = 4  # added to the last two
 
 class _Lobe(ctypes.Structure):
     _fields_ = (
-        *((name, ctypes.c_int32) for name in ("type", "use_f0", "masking", "flag")),
-        *((name, ctypes.c_float) for name in ("weight", "alpha")),
+        *((name, ctypes.c_int32) for name in ("type", "use_f0", "masking", "flag", "above")),
+        *((name, ctypes.c_float) for name in ("weight", "alpha", "cover")),
         *((name, ctypes.c_float * 3) for name in ("color", "eta", "k", "f0")),
+        ("curve_ior", ctypes.c_float),
+        ("f82", ctypes.c_float * 3),
     )
 
 
@@ -30,8 +35,10 @@ Colour = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Lobe:
-    """f0 given means Schlick; else eta and k. Of a dielectric `eta` is (IOR, 0 for refraction alone, -), `color` its
-    transmission and `f0` its reflection; of Oren-Nayar `alpha` is the roughness, `flag` multiple scattering."""
+    """f0 given means a curve from it to 1; else eta and k. Of a dielectric `eta` is (IOR, 0 for refraction alone, 1
+    with multiple scattering), `color` its transmission and `f0` its reflection; of what is brushed `eta` is (both
+    widths, turn of the tangent). `flag`: multiple scattering of a conductor and of Oren-Nayar, the model of a sheen. Of
+    what is diffuse `alpha` is the roughness. `above`: a bit for each of the lobes that lie above this one."""
 
     type: int
     weight: float = 1
@@ -42,6 +49,10 @@ class Lobe:
     k: Colour = (0, 0, 0)
     masking: int = SMITH
     flag: int = 0
+    above: int = 0
+    cover: float = 1
+    curve_ior: float = 0
+    f82: Colour = (1, 1, 1)
 
 
 def _lobes(lobes: Sequence[Lobe]) -> tuple[Any, Any]:
@@ -55,6 +66,7 @@ def _lobes(lobes: Sequence[Lobe]) -> tuple[Any, Any]:
             lobe.weight,
             lobe.alpha,
         )
+        c.above, c.cover, c.curve_ior, c.f82[:] = lobe.above, lobe.cover, lobe.curve_ior, lobe.f82
         c.color[:], c.eta[:], c.k[:], c.f0[:] = lobe.color, lobe.eta, lobe.k, lobe.f0 or (0, 0, 0)
     return out, np.uint64(len(lobes))
 
@@ -88,6 +100,34 @@ def sample(lobes: Sequence[Lobe], wo: ArrayLike, u_lobe: Array, u: Array, eta: f
         np.uint64(n),
         *out,
     )
+    return out
+
+
+def adjoint_weights(lobes: Sequence[Lobe], wo: ArrayLike, u_lobe: Array, u: Array, eta: float = 1) -> Array:
+    """(n, 3): of what sample() returns, where light flows the other way."""
+    n = len(u)
+    out = empty(n, 3)
+    call(
+        "probe_bsdf_adjoint",
+        *_lobes(lobes),
+        np.float32(eta),
+        f32(wo),
+        np.ascontiguousarray(u_lobe),
+        u,
+        np.uint64(n),
+        out,
+    )
+    return out
+
+
+GGX, MEAN_GGX, FRESNEL_RISE, DIELECTRIC_GGX = range(4)
+
+
+def table(kind: int, cosine: ArrayLike, alpha: ArrayLike, ior: ArrayLike = 1.5) -> Array:
+    """(n): a table of bsdf/ggx_albedo.h."""
+    inputs = [np.ascontiguousarray(x) for x in np.broadcast_arrays(f32(cosine), f32(alpha), f32(ior))]
+    out = empty(inputs[0].size)
+    call("probe_ggx_albedo", kind, *inputs, np.uint64(inputs[0].size), out)
     return out
 
 

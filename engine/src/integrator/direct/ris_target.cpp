@@ -30,6 +30,8 @@ float towards(const WeightedLobe &l, const Vec3f &wo, const Vec3f &to, float sin
         return 0;
     if (const auto *metal = std::get_if<Conductor>(&l.lobe))
         return l.weight * towards(*metal, wo, to, sine);
+    if (const auto *brushed = std::get_if<Brushed>(&l.lobe))
+        return l.weight * towards(brushed->metal, wo, to, sine);
     return l.weight * mean_component(albedo(l.lobe)) * std::max(to.z, tuning::kLightAboveHorizon * sine) / kPi;
 }
 

@@ -245,7 +245,7 @@ class LightSubpath {
             return false;
         if (s->specular && (path.from_delta || !survives_specular(path)))
             return false;
-        path.power *= s->weight;
+        path.power *= adjoint_weight(bsdf, incoming, *s);
         if (bent)
             path.power *= scale_of_flux(frame.z, v.geometric, v.incoming, direction, std::abs(s->wi.z));
         if (s->transmitted && crossing)
@@ -295,7 +295,8 @@ class LightSubpath {
             path.specular_depth = 0;
             density = s->pdf;
             if (!bent) {
-                path.power *= s->weight * scale_of_flux(frame.z, v.geometric, v.incoming, direction, s->wi.z);
+                path.power *= adjoint_weight(bsdf, incoming, *s) *
+                              scale_of_flux(frame.z, v.geometric, v.incoming, direction, s->wi.z);
                 leave(path, surface, direction, 1 - bounded_fraction(bsdf, s->wi, incoming));
                 return true;
             }
