@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Colour by formula: blackbody, sRGB, and the mean of Fresnel's equations."""
 
-from math import log, sqrt
+from math import exp, log, sqrt
 
 import numpy as np
 
@@ -43,6 +43,20 @@ def blackbody(kelvin: float) -> Rgb:
     xyz = np.array([(spectrum * curve).sum() for curve in (x, y, z)])
     red, green, blue = np.maximum(TO_RGB @ (xyz / xyz[1]), 0.0)
     return float(red), float(green), float(blue)
+
+
+# Absorption by a unit of each pigment of hair (d'Eon et al. 2011, "An energy-conserving hair reflectance model").
+EUMELANIN: Rgb = (0.506, 0.841, 1.653)
+PHEOMELANIN: Rgb = (0.343, 0.733, 1.924)
+
+
+def hair_reflectance(absorption: Rgb, radial_roughness: float = 0.3) -> Rgb:
+    """The colour that much hair has: equation 9 of Chiang et al. 2016 ("A practical and controllable hair and fur model
+    for production path tracing"), the other way round."""
+    x = radial_roughness
+    scale = 5.969 - 0.215 * x + 2.532 * x**2 - 10.73 * x**3 + 5.574 * x**4 + 0.245 * x**5
+    r, g, b = (exp(-scale * sqrt(max(sigma, 0.0))) for sigma in absorption)
+    return r, g, b
 
 
 def mean_fresnel(ior: float) -> float:

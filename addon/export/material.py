@@ -8,6 +8,8 @@ the node. Nothing turns black or vanishes for that.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from math import log
 from typing import TYPE_CHECKING, Any
 
 from ..scene.description import (
@@ -22,18 +24,21 @@ from ..scene.description import (
     NamedMaterial,
     Null,
     Rgb,
+    Sheen,
     Surface,
     Translucent,
     Transparent,
 )
 from ..scene.problems import Notices, place
 from ..scene.program import Op, TooLargeError, programmed
+from .color import EUMELANIN, PHEOMELANIN, hair_reflectance
 from .combine import add, mix
 from .displacement import bump_of_displacement
 from .nodes import Input, Nodes, Source
 from .principled import principled
 from .translate.image import Images
-from .translate.values import Number, Triple, clamped, clamped_color, op, scaled, squared, triple
+from .translate.surface import tangent_input
+from .translate.values import Number, Triple, clamped, clamped_color, math, op, scaled, squared, triple
 
 if TYPE_CHECKING:
     import bpy
@@ -43,6 +48,13 @@ MIRROR_ALPHA = 1e-4
 
 # From here on Cycles' rough diffuse surfaces keep the light that their facets send on to each other.
 MULTIPLE_SCATTERING_FROM = (4, 3)
+
+# Up to here Cycles' facets are masked towards both directions independently.
+SEPARABLE_MASKING_BEFORE = (3, 5)
+
+# From here on the angle at each facet says how much of light rough glass reflects; before, that at the surface, which
+# shows on very rough glass.
+FACETS_REFLECT_FROM, VERY_ROUGH = (4, 0), 0.3
 
 # What an object without a material shows, here and in Cycles.
 DEFAULT_SURFACE = Lambert((0.8, 0.8, 0.8))
@@ -206,7 +218,7 @@ class _Shaders:
         if roughness == 0.0:
             return Lambert(albedo)
         return Lambert(
-            albedo, roughness=roughness, facets="multiple" if self.version >= MULTIPLE_SCATTERING_FROM else "single"
+            albedo, roughness=roughness, facets="tinted" if self.version >= MULTIPLE_SCATTERING_FROM else "single"
         )
 
     def glossy(self, source: Source) -> Material:
@@ -214,39 +226,71 @@ class _Shaders:
         if isinstance(alpha, float) and alpha < MIRROR_ALPHA:
             return Mirror(color)
         # Cycles' Glossy has no Fresnel: its colour is the reflectance at every angle.
-        return Conductor(alpha=alpha, f0=color, f90=color)
+        metal = Conductor(alpha=alpha, f0=color, f90=color, masking=self.masking, facets=self.facets(source))
+        return self.brushed(source, metal)
 
     def metallic(self, source: Source) -> Material:
         alpha = self._alpha(source)
         if source.node.fresnel_type == "PHYSICAL_CONDUCTOR":
             eta, k = self.color(source, "IOR"), self.color(source, "Extinction")
-            return Conductor(alpha=alpha, eta=(max(eta[0], 1e-3), max(eta[1], 1e-3), max(eta[2], 1e-3)), k=k)
-        self.nodes.notice(source.node, "edge tint is not supported; Schlick's curve from the base colour is used")
-        return Conductor(alpha=alpha, f0=self.albedo(source, "Base Color"))
+            index = (max(eta[0], 1e-3), max(eta[1], 1e-3), max(eta[2], 1e-3))
+            return self.brushed(source, Conductor(alpha=alpha, eta=index, k=k, facets=self.facets(source)))
+        f0, f82 = self.albedo(source, "Base Color"), self.albedo(source, "Edge Tint")
+        return self.brushed(source, Conductor(alpha=alpha, f0=f0, f82=f82, facets=self.facets(source)))
+
+    def brushed(self, source: Source, metal: Conductor) -> Conductor:
+        """With the node's anisotropy, whose sign says which way the facets lean further."""
+        anisotropy = clamped(self.varying_number(source, "Anisotropy"), -0.99, 0.99)
+        if isinstance(anisotropy, Op):
+            below, above = math("add", 1.0, math("minimum", anisotropy, 0.0)), math("maximum", anisotropy, 0.0)
+            aspect: Number = math("divide", below, math("subtract", 1.0, above))
+        else:
+            aspect = 1.0 + anisotropy if anisotropy < 0.0 else 1.0 / (1.0 - anisotropy)
+        return self.along_tangent(source, metal, aspect, "Rotation")
+
+    def along_tangent(self, source: Source, metal: Conductor, aspect: Number, rotation: str) -> Conductor:
+        if aspect == 1.0:
+            return metal
+        if self.nodes.constants_only:
+            self.nodes.notice(source.node, "anisotropy is left out; the reflection is round")
+            return metal
+        turns = self.varying_number(source, rotation)
+        turns = math("fraction", turns) if isinstance(turns, Op) else turns % 1.0
+        tangent = tangent_input(self.nodes, source)
+        return replace(metal, aspect=aspect, rotation=turns, tangent=tangent)
+
+    @property
+    def masking(self) -> str:
+        return "smith_separable" if self.version < SEPARABLE_MASKING_BEFORE else "smith"
+
+    def facets(self, source: Source) -> str:
+        """Beckmann's facets, which GGX stands for, lose less light than those of GGX that scatter once."""
+        distribution = getattr(source.node, "distribution", "GGX")
+        if source.node.bl_idname == "ShaderNodeBsdfRefraction":
+            return "single"
+        return "multiple" if distribution in ("MULTI_GGX", "BECKMANN") else "single"
 
     def _alpha(self, source: Source) -> Number:
         node = source.node
         if getattr(node, "distribution", "GGX") == "SHARP":
             return 0.0
-        if node.distribution in ("BECKMANN", "ASHIKHMIN_SHIRLEY"):
+        alpha = squared(clamped(self.varying_number(source, "Roughness")))
+        if node.distribution in ("BECKMANN", "ASHIKHMIN_SHIRLEY") and (isinstance(alpha, Op) or alpha >= MIRROR_ALPHA):
             self.nodes.notice(node, f"the distribution {node.distribution.title()} is not supported; it is GGX")
-        elif node.distribution == "MULTI_GGX":
-            self.nodes.notice(
-                node, "multiple scattering between microfacets is left out; rough metal is a little darker"
-            )
-        if self.number(source, "Anisotropy") != 0.0:
-            self.nodes.notice(node, "anisotropy is not supported; the reflection is round")
-        return squared(clamped(self.varying_number(source, "Roughness")))
+        return alpha
 
     def glass(self, source: Source) -> Material:
         node = source.node
         color, alpha = self.albedo(source), self._alpha(source)
+        if self.version < FACETS_REFLECT_FROM and (isinstance(alpha, Op) or alpha > VERY_ROUGH):
+            self.nodes.notice(node, "its rough glass reflects by the angle of each facet, not by that of the surface")
         return Glass(
             max(self.number(source, "IOR"), 1e-3),
             0.0 if isinstance(alpha, float) and alpha < MIRROR_ALPHA else alpha,
             color,
             color,
             lobes="refraction" if node.bl_idname == "ShaderNodeBsdfRefraction" else "both",
+            facets=self.facets(source),
         )
 
     def transparent(self, source: Source) -> Material:
@@ -255,6 +299,38 @@ class _Shaders:
 
     def translucent(self, source: Source) -> Material:
         return Translucent(self.albedo(source))
+
+    def sheen(self, source: Source) -> Material:
+        model = "velvet" if getattr(source.node, "distribution", "MICROFIBER") == "ASHIKHMIN" else "fibers"
+        return Sheen(self.albedo(source), clamped(self.varying_number(source, "Roughness")), model)
+
+    def velvet(self, source: Source) -> Material:
+        return Sheen(self.albedo(source), clamped(self.varying_number(source, "Sigma")), "velvet")
+
+    def portal(self, source: Source) -> Material:
+        """Where nothing is linked light goes on as if there were no surface."""
+        if any(not self.nodes.is_free(source, source.node.inputs[name]) for name in ("Position", "Direction")):
+            self.nodes.notice(source.node, "portals are not supported; light goes straight through")
+        return self.transparent(source)
+
+    def hair(self, source: Source) -> Material:
+        color = self._hair_color(source)
+        shown = ", ".join(f"{v:.3g}" for v in color)
+        what = f"shader {source.node.bl_label} is not supported; a diffuse surface of its colour ({shown}) is used"
+        self.nodes.notice(source.node, f"{what} in its place")
+        return Lambert(_clipped(color))
+
+    def _hair_color(self, source: Source) -> Rgb:
+        kind = source.node.parametrization
+        if kind == "COLOR":
+            return self.color(source, "Color")
+        if kind == "ABSORPTION":
+            return hair_reflectance(self.color(source, "Absorption Coefficient"))
+        redness = self.number(source, "Melanin Redness")
+        melanin = -log(max(1.0 - self.number(source, "Melanin"), 1e-4))
+        r, g, b = (melanin * (eu + (pheo - eu) * redness) for eu, pheo in zip(EUMELANIN, PHEOMELANIN, strict=True))
+        own, tint = hair_reflectance((r, g, b)), self.color(source, "Tint")
+        return (own[0] * tint[0], own[1] * tint[1], own[2] * tint[2])
 
     def principled(self, source: Source) -> Material:
         return principled(self, source)
@@ -285,6 +361,10 @@ _SHADERS: dict[str, Callable[[_Shaders, Source], Material]] = {
     "ShaderNodeBsdfRefraction": _Shaders.glass,
     "ShaderNodeBsdfTransparent": _Shaders.transparent,
     "ShaderNodeBsdfTranslucent": _Shaders.translucent,
+    "ShaderNodeBsdfRayPortal": _Shaders.portal,
+    "ShaderNodeBsdfHairPrincipled": _Shaders.hair,
+    "ShaderNodeBsdfSheen": _Shaders.sheen,
+    "ShaderNodeBsdfVelvet": _Shaders.velvet,
     "ShaderNodeBsdfPrincipled": _Shaders.principled,
     "ShaderNodeMixShader": _Shaders.mix,
     "ShaderNodeAddShader": _Shaders.add,

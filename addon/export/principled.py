@@ -1,29 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Principled BSDF in the engine's subset: base colour, metallic, roughness, IOR, transmission and emission.
-
-The engine has no layer of dielectric over a diffuse base. In its place stands a mix whose weight is the layer's mean
-reflectance over all directions: as bright on the whole, but too bright seen from above and too dark at grazing angles.
-"""
+"""The Principled BSDF as the engine's layers: that of 4.0 and later, and the one before."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Protocol
 
-from ..scene.description import BLACK, WHITE, Conductor, Glass, Lambert, Light, Material, Null, Rgb, Surface
-from .color import ior_of_normal_reflectance, mean_fresnel
-from .combine import mix, mixed
-from .nodes import Nodes, Source, find_input
-from .translate.values import Number, Triple, clamped, clamped_color, scaled, square_root, squared
-
-# Inputs that the engine has nothing for: their names from 4.0, those before, and what they are called in a notice.
-UNSUPPORTED: tuple[tuple[tuple[str, ...], str], ...] = (
-    (("Subsurface Weight", "Subsurface"), "subsurface scattering"),
-    (("Coat Weight", "Clearcoat"), "the clear coat"),
-    (("Sheen Weight", "Sheen"), "sheen"),
-    (("Anisotropic",), "anisotropy"),
-    (("Thin Film Thickness",), "the thin film"),
+from ..scene.description import (
+    BLACK,
+    WHITE,
+    Add,
+    Burley,
+    Conductor,
+    Glass,
+    Lambert,
+    Layer,
+    Light,
+    Material,
+    Null,
+    Rgb,
+    Sheen,
+    Surface,
 )
+from ..scene.program import Op
+from .color import ior_of_normal_reflectance
+from .combine import mix
+from .nodes import Nodes, Source, find_input
+from .translate.values import (
+    Number,
+    Triple,
+    clamped,
+    clamped_color,
+    difference,
+    lerp,
+    math,
+    multiplied,
+    product,
+    scaled,
+    square_root,
+    squared,
+    weighted,
+)
+
+# By which the hue of a colour is told from its brightness, before 4.0: of sheen, and of the specular reflection.
+LUMINANCE, DISNEY_LUMINANCE = (0.2126729, 0.7151522, 0.0721750), (0.3, 0.6, 0.1)
+
+# The angle that a coat's tint is taken at: cos^2 of 45 degrees, where a lit surface is seen in the mean.
+SEEN_AT = 0.5
 
 
 class Shaders(Protocol):
@@ -31,70 +54,208 @@ class Shaders(Protocol):
 
     nodes: Nodes
 
+    @property
+    def masking(self) -> str: ...
+    def facets(self, source: Source) -> str: ...
     def color(self, source: Source, *names: str) -> Rgb: ...
     def varying(self, source: Source, *names: str) -> Triple: ...
     def varying_number(self, source: Source, *names: str, default: float = 0.0) -> Number: ...
     def albedo(self, source: Source, *names: str) -> Triple: ...
     def number(self, source: Source, *names: str, default: float = 0.0) -> float: ...
+    def along_tangent(self, source: Source, metal: Conductor, aspect: Number, rotation: str) -> Conductor: ...
     def rough_diffuse(self, albedo: Triple, roughness: float) -> Lambert: ...
 
 
-def normal_reflectance(node: Any, ior: float, specular: float) -> float:
-    """Of the dielectric layer. `specular` scales that of the IOR from 4.0; before, it stands for 0.08 of it alone."""
-    if find_input(node, "Specular IOR Level") is None:
-        return 0.08 * specular
-    return min(2.0 * specular * ((ior - 1.0) / (ior + 1.0)) ** 2, 1.0)
-
-
 def principled(shaders: Shaders, source: Source) -> Material:
-    node = source.node
-
-    def unit(*names: str, default: float = 0.0) -> float:
-        return min(max(shaders.number(source, *names, default=default), 0.0), 1.0)
-
-    def varying_unit(*names: str, default: float = 0.0) -> Number:
-        return clamped(shaders.varying_number(source, *names, default=default))
-
-    for names, what in UNSUPPORTED:
-        if unit(*names) > 0.0:
-            shaders.nodes.notice(node, f"{what} is not supported and left out")
-    base = shaders.albedo(source, "Base Color")
-    alpha = squared(varying_unit("Roughness"))
-    metallic, transmission = varying_unit("Metallic"), unit("Transmission Weight", "Transmission")
-    opacity = varying_unit("Alpha", default=1.0)
-    strength = shaders.varying_number(source, "Emission Strength")
-    emission = scaled(shaders.varying(source, "Emission Color", "Emission"), strength)
-    if isinstance(emission, tuple):
-        emission = clamped_color(emission, 0.0, float("inf"))
-    result: Material = Conductor(alpha=alpha, f0=base)
-    if metallic != 1.0:
-        below: Material = _opaque(shaders, source, base, alpha) if transmission < 1.0 else Lambert(BLACK)
-        if transmission > 0.0:
-            below = mix(transmission, below, _glass(shaders, source, base, alpha))
-        result = mix(metallic, below, result)
+    is_old = find_input(source.node, "Specular IOR Level") is None
+    inputs = _Inputs(shaders, source)
+    result = _surface_before_4(inputs) if is_old else _surface(inputs)
+    emission = inputs.emission()
     if emission != BLACK:
-        assert not isinstance(result, (Light, Null))
         result = replace(result, emission=emission)
-    if opacity != 1.0:
-        result = mix(opacity, Null(), result)
+    opacity = inputs.unit("Alpha", default=1.0)
+    return result if opacity == 1.0 else mix(opacity, Null(), result)
+
+
+class _Inputs:
+    """The node's inputs within their ranges."""
+
+    def __init__(self, shaders: Shaders, source: Source) -> None:
+        self.shaders, self.source, self.node = shaders, source, source.node
+        self.base = shaders.albedo(source, "Base Color")
+        self.alpha = squared(self.unit("Roughness"))
+        self.metallic = self.unit("Metallic")
+        self.transmission = self.unit("Transmission Weight", "Transmission")
+        self.ior = max(shaders.number(source, "IOR", default=1.5), 1e-3)
+        self.facets = shaders.facets(source)
+        self.under: Triple = WHITE  # what a coat's tint makes of white beneath it
+        if self.unit("Subsurface Weight", "Subsurface") != 0.0:
+            self.notice("subsurface scattering is not supported; a diffuse surface of its colour stands in its place")
+
+    def notice(self, what: str) -> None:
+        self.shaders.nodes.notice(self.node, what)
+
+    def unit(self, *names: str, default: float = 0.0) -> Number:
+        return clamped(self.shaders.varying_number(self.source, *names, default=default))
+
+    def color(self, *names: str) -> Triple:
+        return clamped_color(self.shaders.varying(self.source, *names))
+
+    def brushed(self, metal: Conductor) -> Conductor:
+        squared_aspect = difference(1.0, product(self.unit("Anisotropic"), 0.9))
+        aspect = math("sqrt", squared_aspect) if isinstance(squared_aspect, Op) else squared_aspect**0.5
+        return self.shaders.along_tangent(self.source, metal, aspect, "Anisotropic Rotation")
+
+    def emission(self) -> Triple:
+        strength = self.shaders.varying_number(self.source, "Emission Strength", default=1.0)
+        emission = scaled(self.shaders.varying(self.source, "Emission Color", "Emission"), strength)
+        return emission if isinstance(emission, Op) else clamped_color(emission, 0.0, float("inf"))
+
+
+def normal_reflectance(ior: float) -> float:
+    return ((ior - 1.0) / (ior + 1.0)) ** 2
+
+
+def _ior_of_normal_reflectance(f0: Number) -> Number:
+    if isinstance(f0, Op):
+        root = math("sqrt", math("minimum", f0, 0.98))
+        return math("divide", math("add", 1.0, root), math("subtract", 1.0, root))
+    return ior_of_normal_reflectance(f0)
+
+
+# ---- From 4.0 on: layers that leave to those beneath what they do not reflect ----
+
+
+def _surface(inputs: _Inputs) -> Surface:
+    coat_weight, coat_ior = inputs.unit("Coat Weight"), max(inputs.shaders.number(inputs.source, "Coat IOR"), 1.0)
+    if coat_weight != 0.0:
+        inputs.under = _coat_tint(inputs, coat_weight, coat_ior)
+        inputs.base = multiplied(inputs.base, inputs.under)
+    tint, white = inputs.color("Specular Tint"), inputs.under
+    metal = Conductor(inputs.alpha, f0=inputs.base, f90=white, f82=tint, facets=inputs.facets)
+    result: Material = inputs.brushed(metal)
+    if inputs.metallic != 1.0:
+        below: Material = Lambert(BLACK)
+        if inputs.transmission != 1.0:
+            below = _opaque(inputs, tint)
+        if inputs.transmission != 0.0:
+            # The base colour is that of light which passes two boundaries.
+            color = square_root(multiplied(inputs.base, white))
+            glass = Glass(inputs.ior, inputs.alpha, reflection=white, transmission=color, facets=inputs.facets)
+            below = mix(inputs.transmission, below, glass)
+        result = mix(inputs.metallic, below, result)
+    assert not isinstance(result, (Light, Null))
+    if coat_weight != 0.0 and coat_ior != 1.0:
+        f0 = (normal_reflectance(coat_ior),) * 3
+        result = Layer(coat_weight, Conductor(squared(inputs.unit("Coat Roughness")), f0=f0, ior=coat_ior), result)
+        _note_coat_normal(inputs, "Coat Normal")
+    sheen = inputs.unit("Sheen Weight")
+    if sheen != 0.0:
+        result = Layer(sheen, Sheen(inputs.color("Sheen Tint"), inputs.unit("Sheen Roughness")), result)
     return result
 
 
-def _opaque(shaders: Shaders, source: Source, base: Triple, alpha: Number) -> Surface:
-    specular = max(shaders.number(source, "Specular IOR Level", "Specular"), 0.0)
-    ior = max(shaders.number(source, "IOR", default=1.5), 1e-3)
-    weight = mean_fresnel(ior_of_normal_reflectance(normal_reflectance(source.node, ior, specular)))
-    diffuse = shaders.rough_diffuse(base, shaders.number(source, "Diffuse Roughness"))
-    if weight <= 0.0:
+def _opaque(inputs: _Inputs, tint: Triple) -> Surface:
+    """A dielectric over a diffuse base."""
+    shaders, source = inputs.shaders, inputs.source
+    if shaders.number(source, "Thin Film Thickness") > 0.0:
+        inputs.notice("the thin film is not supported and left out")
+    diffuse = shaders.rough_diffuse(inputs.base, shaders.number(source, "Diffuse Roughness"))
+    level = shaders.varying_number(source, "Specular IOR Level")
+    f0 = clamped(product(level, 2.0 * normal_reflectance(inputs.ior)))
+    if f0 == 0.0:
         return diffuse
-    shaders.nodes.notice(
-        source.node, f"its dielectric layer is approximated by a mix of the same mean reflectance ({weight:.3g})"
-    )
-    return mixed(weight, Conductor(alpha=alpha, f0=WHITE), diffuse)
+    ior = _ior_of_normal_reflectance(f0)
+    if inputs.ior < 1.0:
+        ior = math("divide", 1.0, ior) if isinstance(ior, Op) else 1.0 / ior
+    f0_color, white = multiplied(scaled(tint, f0), inputs.under), inputs.under
+    gloss = Conductor(inputs.alpha, f0=f0_color, f90=white, ior=ior, facets=inputs.facets)
+    return Layer(1.0, inputs.brushed(gloss), diffuse)
 
 
-def _glass(shaders: Shaders, source: Source, base: Triple, alpha: Number) -> Glass:
-    # From 4.0 on the base colour is that of light which passes two boundaries.
-    at_each = find_input(source.node, "Specular IOR Level") is None
-    color = base if at_each else square_root(base)
-    return Glass(max(shaders.number(source, "IOR", default=1.5), 1e-3), alpha, transmission=color)
+def _coat_tint(inputs: _Inputs, weight: Number, ior: float) -> Triple:
+    """What a tinted coat leaves of the colour beneath it, by the way through it at one angle."""
+    tint = inputs.shaders.color(inputs.source, "Coat Tint")
+    if tint == WHITE:
+        return WHITE
+    inputs.notice("the coat's tint is taken as it is seen at 45 degrees, and colours what lies beneath it")
+    way = (1.0 - SEEN_AT / ior**2) ** -0.5
+    return lerp(WHITE, (max(tint[0], 0.0) ** way, max(tint[1], 0.0) ** way, max(tint[2], 0.0) ** way), weight)
+
+
+def _note_coat_normal(inputs: _Inputs, name: str) -> None:
+    socket = inputs.node.inputs.get(name)
+    if socket is not None and not inputs.shaders.nodes.is_free(inputs.source, socket):
+        inputs.notice("a coat with a normal of its own is not supported; it has the normal of what lies beneath it")
+
+
+# ---- Before 4.0: lobes on top of each other, each at full strength ----
+
+
+def _surface_before_4(inputs: _Inputs) -> Surface:
+    opaque, clear = difference(1.0, inputs.metallic), inputs.transmission
+    through = product(clear, opaque)
+    # A mix with the glass beneath; of what is not glass, the part that is neither metal.
+    diffuse_share = product(opaque, difference(1.0, clear))
+    if through != 0.0 and through != 1.0:
+        rest = difference(1.0, through)
+        both_fixed = not isinstance(diffuse_share, Op) and not isinstance(rest, Op)
+        diffuse_share = diffuse_share / rest if both_fixed else math("divide", diffuse_share, rest)  # type: ignore[operator]
+    result: Material = Lambert(BLACK)
+    if through != 1.0:
+        result = _lobes_before_4(inputs, diffuse_share)
+    if through != 0.0:
+        if inputs.alpha != 0.0:
+            inputs.notice("its rough glass reflects by the angle of each facet, not by that of the surface")
+        if inputs.unit("Transmission Roughness") != 0.0:
+            inputs.notice("a roughness of its own for what is transmitted is not supported; it has that of the surface")
+        glass = Glass(inputs.ior, inputs.alpha, transmission=inputs.base, facets=inputs.facets)
+        result = mix(through, result, glass)
+    assert not isinstance(result, (Light, Null))
+    coat = inputs.unit("Clearcoat")
+    if coat != 0.0:
+        inputs.notice("the clear coat's highlight has the tails of GGX, which are shorter than its own")
+        part = product(coat, 0.25)
+        f0, f90 = scaled(WHITE, product(part, 0.04)), scaled(WHITE, part)
+        alpha = squared(inputs.unit("Clearcoat Roughness"))
+        result = Add(Conductor(alpha, f0=f0, f90=f90, ior=1.5, masking=inputs.shaders.masking), result)
+        _note_coat_normal(inputs, "Clearcoat Normal")
+    return result
+
+
+def _lobes_before_4(inputs: _Inputs, diffuse_share: Number) -> Surface:
+    parts: list[Surface] = []
+    subsurface = inputs.unit("Subsurface")
+    if diffuse_share != 0.0:
+        albedo = scaled(lerp(inputs.base, inputs.color("Subsurface Color"), subsurface), diffuse_share)
+        parts.append(Burley(albedo, inputs.unit("Roughness")) if subsurface == 0.0 else Lambert(albedo))
+        sheen = product(inputs.unit("Sheen"), diffuse_share)
+        if sheen != 0.0:
+            parts.append(Sheen(scaled(_tinted(inputs, "Sheen Tint", LUMINANCE), sheen), model="schlick"))
+    specular = clamped(inputs.shaders.varying_number(inputs.source, "Specular"), 0.0, 10.0)
+    if specular != 0.0 or inputs.metallic != 0.0:
+        f0 = product(specular, 0.08)
+        color = lerp(scaled(_tinted(inputs, "Specular Tint", DISNEY_LUMINANCE), f0), inputs.base, inputs.metallic)
+        ior = _ior_of_normal_reflectance(f0)
+        masking = inputs.shaders.masking
+        gloss = Conductor(inputs.alpha, clamped_color(color), ior=ior, masking=masking, facets=inputs.facets)
+        parts.append(inputs.brushed(gloss))
+    if not parts:
+        return Lambert(BLACK)
+    result = parts[0]
+    for part in parts[1:]:
+        result = Add(result, part)
+    return result
+
+
+def _tinted(inputs: _Inputs, name: str, weights: Rgb) -> Triple:
+    """White, or the hue of the base colour where the sum by these weights is 1."""
+    tint = inputs.unit(name)
+    if tint == 0.0:
+        return WHITE
+    light = weighted(inputs.base, weights)
+    if isinstance(light, Op):
+        hue: Triple = scaled(inputs.base, math("divide", 1.0, light))
+    else:
+        hue = scaled(inputs.base, 1.0 / light) if light > 0.0 else WHITE
+    return lerp(WHITE, hue, tint)

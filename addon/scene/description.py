@@ -96,7 +96,7 @@ class Camera:
 @dataclass(frozen=True)
 class Lambert:
     """A diffuse surface; with a roughness above 0 Oren and Nayar's. facets: "multiple" adds the light that rough
-    facets send on to each other."""
+    facets send on to each other, "tinted" the same times the albedo, as Cycles has it."""
 
     TYPE: ClassVar[str] = "lambert"
     albedo: Color
@@ -114,8 +114,9 @@ class Mirror:
 
 @dataclass(frozen=True)
 class Conductor:
-    """A rough metal: GGX of width alpha, with the exact Fresnel equations of eta + i k, or Schlick's from f0
-    to f90 at grazing."""
+    """Rough reflection: GGX of width alpha, with the exact Fresnel equations of eta + i k, or a curve from f0 to f90 at
+    grazing: Schlick's, times f82 at 82 degrees, or that of a dielectric of the index ior. facets: "multiple" adds the
+    light that facets send on to each other. An aspect other than 1 is that of brushed metal."""
 
     TYPE: ClassVar[str] = "conductor"
     alpha: Number
@@ -124,6 +125,13 @@ class Conductor:
     k: Color = None
     emission: Color = BLACK
     f90: Color = WHITE
+    f82: Color = WHITE
+    ior: Number = 0.0
+    masking: str = "smith"
+    facets: str = "single"
+    aspect: Number = 1.0  # alpha across the tangent is alpha times this, along it alpha over this
+    tangent: Color = BLACK
+    rotation: Number = 0.0  # of the tangent about the normal, in turns
 
 
 @dataclass(frozen=True)
@@ -138,6 +146,8 @@ class Glass:
     transmission: Color = WHITE  # at each crossing
     lobes: str = "both"
     emission: Color = BLACK
+    facets: str = "single"
+    masking: str = "smith"
 
 
 @dataclass(frozen=True)
@@ -153,6 +163,27 @@ class Translucent:
 
     TYPE: ClassVar[str] = "translucent"
     albedo: Color
+    emission: Color = BLACK
+
+
+@dataclass(frozen=True)
+class Burley:
+    """Disney's diffuse surface."""
+
+    TYPE: ClassVar[str] = "burley"
+    albedo: Color
+    roughness: Number
+    emission: Color = BLACK
+
+
+@dataclass(frozen=True)
+class Sheen:
+    """Cloth's shine towards grazing angles. model: "fibers", "schlick" or "velvet"."""
+
+    TYPE: ClassVar[str] = "sheen"
+    color: Color
+    roughness: Number = 0.0
+    model: str = "fibers"
     emission: Color = BLACK
 
 
@@ -174,6 +205,17 @@ class Add:
 
 
 @dataclass(frozen=True)
+class Layer:
+    """a on top of b, which gets what a leaves to it."""
+
+    TYPE: ClassVar[str] = "layer"
+    weight: Number  # the part of b that a is above of
+    a: Surface
+    b: Surface
+    emission: Color = BLACK
+
+
+@dataclass(frozen=True)
 class Light:
     TYPE: ClassVar[str] = "light"
     radiance: Color
@@ -185,7 +227,7 @@ class Null:
 
 
 # What scatters light, and may also emit.
-Surface = Lambert | Mirror | Conductor | Glass | Transparent | Translucent | Mix | Add
+Surface = Lambert | Mirror | Conductor | Glass | Transparent | Translucent | Burley | Sheen | Mix | Add | Layer
 Material = Surface | Light | Null
 
 

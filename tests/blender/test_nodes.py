@@ -11,8 +11,19 @@ import OpenImageIO
 import pytest
 from hosts import Host
 
-from addon.export.color import mean_fresnel
-from addon.scene.description import Add, Conductor, Glass, Lambert, Material, Mix, Translucent, Transparent
+from addon.scene.description import (
+    Add,
+    Burley,
+    Conductor,
+    Glass,
+    Lambert,
+    Layer,
+    Material,
+    Mix,
+    Sheen,
+    Translucent,
+    Transparent,
+)
 from addon.scene.program import Output
 
 RED = (0.8, 0.1, 0.1)
@@ -28,7 +39,8 @@ def facts(host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any
 
 
 def material(facts: dict[str, Any], name: str, group: str = "nodes") -> tuple[Material, list[str]]:
-    names = {kind.__name__: kind for kind in (Add, Conductor, Glass, Lambert, Mix, Output, Translucent, Transparent)}
+    kinds = (Add, Burley, Conductor, Glass, Lambert, Layer, Mix, Output, Sheen, Translucent, Transparent)
+    names = {kind.__name__: kind for kind in kinds}
     found = facts[group][name]
     return eval(found["is"], names), found["notices"]
 
@@ -45,9 +57,9 @@ def test_constants_are_folded(facts: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("name", ["group", "muted", "principled_diffuse"])
-def test_red_diffuse_by_way_of(facts: dict[str, Any], name: str) -> None:
+def test_red_diffuse_by_way_of(facts: dict[str, Any], host: Host, name: str) -> None:
     found, notices = material(facts, name)
-    assert isinstance(found, Lambert)
+    assert isinstance(found, Burley if name == "principled_diffuse" and not host.is_module else Lambert)
     assert found.albedo == close(RED)
     assert notices == []
 
@@ -61,7 +73,7 @@ def test_emission_is_added(facts: dict[str, Any]) -> None:
 
 def test_principled_emission(facts: dict[str, Any]) -> None:
     found, _ = material(facts, "principled_emission")
-    assert isinstance(found, Lambert)
+    assert isinstance(found, (Burley, Lambert))
     assert found.emission == close((4.0, 2.0, 1.0))
 
 
@@ -100,14 +112,24 @@ def test_what_passes_light(facts: dict[str, Any]) -> None:
         assert notices == []
 
 
-def test_principled_default_is_told_to_be_approximate(facts: dict[str, Any]) -> None:
+def test_principled_default(facts: dict[str, Any], host: Host) -> None:
+    """From 4.0 on a layer over a diffuse base; before, two lobes at full strength."""
     found, notices = material(facts, "principled_default")
-    assert isinstance(found, Mix)
+    assert notices == []
+    if host.is_module:
+        assert isinstance(found, Layer) and found.weight == 1.0
+        gloss, diffuse = found.a, found.b
+        assert isinstance(diffuse, Lambert)
+    else:
+        assert isinstance(found, Add)
+        diffuse, gloss = found.a, found.b
+        assert isinstance(diffuse, Burley) and diffuse.roughness == 0.5
+    assert diffuse.albedo == close((0.8, 0.8, 0.8))
     # F0 = 0.04 in all versions: by the specular of old ones, and by an IOR of 1.5 in new ones.
-    assert found.weight == pytest.approx(mean_fresnel(1.5), rel=1e-4)
-    assert isinstance(found.b, Lambert)
-    assert found.b.albedo == close((0.8, 0.8, 0.8))
-    assert len(notices) == 1 and "approximated" in notices[0]
+    assert isinstance(gloss, Conductor)
+    assert gloss.f0 == close((0.04, 0.04, 0.04))
+    assert gloss.ior == pytest.approx(1.5)
+    assert (gloss.masking, gloss.facets) == (("smith", "multiple") if host.is_module else ("smith_separable", "single"))
 
 
 NAMED = "object 'Thing', material 'Test"
@@ -136,9 +158,17 @@ def test_what_cannot_be_translated_is_named_and_not_black(
     assert notices[0].startswith(NAMED) and "node '" in notices[0] and words in notices[0]
 
 
-def test_a_coat_is_named(facts: dict[str, Any]) -> None:
-    _, notices = material(facts, "principled_coat")
-    assert len(notices) == 1 and "the clear coat is not supported" in notices[0]
+def test_a_coat(facts: dict[str, Any], host: Host) -> None:
+    found, notices = material(facts, "principled_coat")
+    assert isinstance(found, (Add, Layer))
+    assert isinstance(found.a, Conductor)
+    assert found.a.ior == pytest.approx(1.5)
+    if host.is_module:
+        assert isinstance(found, Layer) and found.weight == 0.5
+        assert notices == []
+    else:
+        assert found.a.f90 == close((0.125, 0.125, 0.125))
+        assert len(notices) == 1 and "clear coat" in notices[0]
 
 
 def test_a_material_without_a_shader_is_black_as_in_cycles_and_named(facts: dict[str, Any]) -> None:

@@ -135,6 +135,14 @@ def _around_z(generated: Triple, axis: str = "Z") -> Triple:
     return op("combine", minus["z"], 0.0, x) if axis == "Y" else op("combine", minus["y"], x, 0.0)
 
 
+def tangent_input(nodes: Nodes, source: Source) -> Triple:
+    """A node's Tangent, or around the object's z axis."""
+    socket = source.node.inputs.get("Tangent")
+    if socket is None or nodes.is_free(source, socket):
+        return op("tangent", _around_z(attribute(nodes, GENERATED)))
+    return triple(nodes.socket_value(source, socket))
+
+
 def tangent_node(nodes: Nodes, source: Source) -> Value:
     node = source.node
     if node.direction_type == "RADIAL":

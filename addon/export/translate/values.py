@@ -100,6 +100,21 @@ def clamped_color(a: Triple, low: float = 0.0, high: float = 1.0) -> Triple:
     return (min(max(a[0], low), high), min(max(a[1], low), high), min(max(a[2], low), high))
 
 
+def multiplied(a: Triple, b: Triple) -> Triple:
+    """Channel by channel."""
+    if isinstance(a, Op) or isinstance(b, Op):
+        white = (1.0, 1.0, 1.0)
+        return b if a == white else a if b == white else vector_math("multiply", a, b)
+    return (a[0] * b[0], a[1] * b[1], a[2] * b[2])
+
+
+def weighted(a: Triple, weights: Rgb) -> Number:
+    """The sum of the channels, each times its weight."""
+    if isinstance(a, Op):
+        return op("dot", weights, a)
+    return a[0] * weights[0] + a[1] * weights[1] + a[2] * weights[2]
+
+
 def square_root(a: Triple) -> Triple:
     """Channel by channel."""
     if isinstance(a, Op):
