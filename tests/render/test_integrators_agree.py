@@ -83,9 +83,8 @@ def lamps_of_blender_3_in_fog() -> Builder:
 
 
 def hidden_from_the_camera_in_fog() -> Builder:
-    """Smooth metal, and a light, that the camera looks through; splats and gather points are on its side of it."""
-    scene = light_by_way_of_metal()
-    return scene.hide(d.EVERY_RAY & ~d.Rays.CAMERA)
+    """A floor and a metal ball that the camera looks through, in the light of lamps: gather points are behind them."""
+    return lamps_in_fog().hide(d.EVERY_RAY & ~d.Rays.CAMERA)
 
 
 def glass_between_lights() -> Builder:
