@@ -187,7 +187,9 @@ def rendering(line: str) -> Progress | None:
 
 @dataclass(frozen=True)
 class Package:
-    """A Debian package, what needs it ("build", "render", "test", or a peer of the benchmark), and why."""
+    """A Debian package, what needs it ("engine", which "build" needs too, "build", "render", "test", or a peer of the
+    benchmark), and why.
+    """
 
     name: str
     purpose: str
@@ -195,10 +197,9 @@ class Package:
 
 
 PACKAGES = (
-    Package("g++", "build", "compiler"),
-    Package("cmake", "build", "drives the build"),
-    Package("ninja-build", "build", "runs the build"),
-    Package("libembree-dev", "build", "ray tracing, headers and library"),
+    Package("g++", "engine", "compiler"),
+    Package("cmake", "engine", "drives the build, fetches Embree"),
+    Package("ninja-build", "engine", "runs the build"),
     Package("libopenimageio-dev", "build", "images in and out of the command line"),
     Package("libopenexr-dev", "build", "its .exr pictures"),
     Package("nlohmann-json3-dev", "build", "scene files"),
@@ -230,7 +231,7 @@ PACKAGES = (
 
 def wanted_packages(purposes: Iterable[str], blender: Path | None) -> list[str]:
     """The packages for some purposes. A Blender that is not Debian's replaces `blender` and brings its own numpy."""
-    wanted = set(purposes)
+    wanted = {*purposes, *(["engine"] if "build" in purposes else [])}
     foreign = blender is not None and not blender.resolve().is_relative_to("/usr/bin")
     return [p.name for p in PACKAGES if p.purpose in wanted and not (foreign and p.purpose == "render")]
 
@@ -361,14 +362,25 @@ def setup(blender: str | None, purposes: Sequence[str]) -> Path | None:
     return found or find_blender(None)
 
 
-def build(preset: str = "release") -> None:
-    """Configures when needed and compiles. The release preset leaves build/bin/glimmer and build/lib/libglimmer.so."""
+def configure(preset: str, with_command: bool) -> None:
+    """Makes the preset's build folder, when it is not there yet or was made without the command that is wanted now."""
     folder = BUILD / preset
-    home = f"CMAKE_HOME_DIRECTORY:INTERNAL={ENGINE}\n"
-    if not (folder / "build.ninja").exists() or home not in (folder / "CMakeCache.txt").read_text():
+    known = (folder / "CMakeCache.txt").read_text() if (folder / "build.ninja").exists() else ""
+    switch = f"-DGLIMMER_COMMAND={'ON' if with_command else 'OFF'}"
+    if f"CMAKE_HOME_DIRECTORY:INTERNAL={ENGINE}\n" not in known:
+        mirror = newest_blender.mirror().rstrip("/") if shutil.which("apt-get") else newest_blender.MIRROR
         # --fresh: what a failed try or a checkout since moved left behind
-        run(["cmake", "--fresh", "--preset", preset], cwd=ENGINE)
-    command = ["cmake", "--build", "--preset", preset]
+        run(["cmake", "--fresh", "--preset", preset, switch, f"-DGLIMMER_DEBIAN_MIRROR={mirror}"], cwd=ENGINE)
+    elif with_command and "GLIMMER_COMMAND:BOOL=OFF\n" in known:
+        run(["cmake", "--preset", preset, switch], cwd=ENGINE)
+
+
+def build(preset: str = "release", target: str | None = None) -> None:
+    """Configures when needed and compiles. The release preset leaves build/bin/glimmer and build/lib/libglimmer.so; of
+    a target, what it needs alone is compiled and has to be installed.
+    """
+    configure(preset, with_command=target is None)
+    command = ["cmake", "--build", "--preset", preset, *(["--target", target] if target is not None else [])]
     env = {**os.environ, "NINJA_STATUS": "[%f/%t] "}
     status = watch(command, compiling, cwd=ENGINE, env=env)
     if status != 0:
@@ -610,8 +622,8 @@ def addon_version() -> str:
 
 def package() -> Path:
     """One zip that installs as an add-on (3.4 on) and as an extension (4.2 on). The same files give the same bytes."""
-    install_packages(wanted_packages(("build",), None))
-    build()
+    install_packages(wanted_packages(("engine",), None))
+    build(target="glimmer")
     files = {
         f"glimmer/{path.relative_to(ADDON).as_posix()}": path
         for path in ADDON.rglob("*")
@@ -619,6 +631,7 @@ def package() -> Path:
     }
     files["glimmer/LICENSE"] = ROOT / "LICENSE"
     files["glimmer/lib/libglimmer.so"] = LIBRARY
+    files["glimmer/lib/LICENSE.embree"] = BUILD / "embree" / "LICENSE.txt"
     target = BUILD / "dist" / f"glimmer-{addon_version()}-linux-{platform.machine()}.zip"
     target.parent.mkdir(parents=True, exist_ok=True)
     partial = target.with_suffix(".partial")

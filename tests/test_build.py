@@ -69,7 +69,7 @@ def test_bad_arguments_are_refused_in_words(arguments: Sequence[str], message: s
 def test_package_table_has_no_doubles_and_known_purposes() -> None:
     names = [package.name for package in build.PACKAGES]
     assert len(names) == len(set(names))
-    assert {package.purpose for package in build.PACKAGES} == {"build", "render", "test", "mitsuba"}
+    assert {package.purpose for package in build.PACKAGES} == {"engine", "build", "render", "test", "mitsuba"}
     assert all(package.why for package in build.PACKAGES)
 
 
@@ -80,6 +80,11 @@ def test_a_foreign_blender_replaces_the_packages_of_debians(tmp_path: Path) -> N
     assert "python3-numpy" in build.wanted_packages(("render",), Path("/usr/bin/blender"))
     assert build.wanted_packages(("render",), foreign) == []
     assert "python3-venv" not in build.wanted_packages(("build", "render"), None)
+
+
+def test_the_library_alone_needs_a_compiler_and_no_more() -> None:
+    assert set(build.wanted_packages(("engine",), None)) == {"g++", "cmake", "ninja-build"}
+    assert {"g++", "libopenimageio-dev"} <= set(build.wanted_packages(("build",), None))
 
 
 def test_missing_packages_are_those_that_dpkg_does_not_know_as_installed() -> None:
@@ -124,6 +129,43 @@ def test_as_root_it_installs_what_is_missing_without_a_question(monkeypatch: pyt
 def test_nothing_is_installed_when_nothing_is_missing(calls: Calls) -> None:
     build.install_packages(["dpkg"])
     assert calls == []
+
+
+def test_a_target_alone_is_configured_without_the_rest_until_that_is_wanted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, calls: Calls
+) -> None:
+    """The zip needs the library: neither the command nor what that has to find on the machine."""
+    built: list[list[str]] = []
+
+    def watch(command: list[str], *_: Any, **__: Any) -> int:
+        built.append(command)
+        return 0
+
+    monkeypatch.setattr(build, "BUILD", tmp_path)
+    monkeypatch.setattr(build, "watch", watch)
+    home = f"CMAKE_HOME_DIRECTORY:INTERNAL={build.ENGINE}\n"
+    (tmp_path / "release").mkdir()
+
+    def configured_with(value: str) -> None:
+        (tmp_path / "release" / "build.ninja").touch()
+        (tmp_path / "release" / "CMakeCache.txt").write_text(f"{home}GLIMMER_COMMAND:BOOL={value}\n")
+
+    build.build(target="glimmer")
+    assert len(calls) == 1
+    assert {"--fresh", "-DGLIMMER_COMMAND=OFF"} <= set(calls[0])
+    assert built[0][-2:] == ["--target", "glimmer"]
+    configured_with("OFF")
+    build.build(target="glimmer")
+    assert len(calls) == 1
+    build.build()
+    assert len(calls) == 2
+    assert "-DGLIMMER_COMMAND=ON" in calls[1]
+    assert "--fresh" not in calls[1]
+    assert "--target" not in built[-1]
+    configured_with("ON")
+    build.build()
+    build.build(target="glimmer")
+    assert len(calls) == 2
 
 
 # ---- Virtual environments ----------------------------------------------------------------------------------------

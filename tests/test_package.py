@@ -104,7 +104,12 @@ def test_the_zip_holds_the_add_on_its_library_and_its_licence(zip_path: Path) ->
         assert archive.testzip() is None
         names = archive.namelist()
         library = archive.read("glimmer/lib/libglimmer.so")
-    assert {"glimmer/__init__.py", "glimmer/blender_manifest.toml", "glimmer/LICENSE"} <= set(names)
+    assert {
+        "glimmer/__init__.py",
+        "glimmer/blender_manifest.toml",
+        "glimmer/LICENSE",
+        "glimmer/lib/LICENSE.embree",
+    } <= set(names)
     assert all(name.startswith("glimmer/") for name in names)
     assert not [name for name in names if "__pycache__" in name or name.endswith((".pyc", ".blend"))]
     assert library == build.LIBRARY.read_bytes()

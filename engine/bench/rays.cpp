@@ -45,23 +45,22 @@ struct World {
 /// The same instances in a scene of Embree's own, and nothing around it.
 Bvh raw_scene(const Accel &accel) {
     const auto device = embree_device(0);
-    const Embree &e = embree();
     const Bvh scene = new_bvh(*device);
     for (const Instance &instance : accel.instances()) {
-        RTCGeometry geometry = e.rtcNewGeometry(device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
-        e.rtcSetGeometryInstancedScene(geometry, instance.mesh->bvh(device).get());
+        RTCGeometry geometry = rtcNewGeometry(device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, instance.mesh->bvh(device).get());
         float rows[12];
         for (size_t r = 0; r < 3; ++r) {
             const Vec3f &row = instance.linear[r];
             rows[4 * r] = row.x, rows[4 * r + 1] = row.y, rows[4 * r + 2] = row.z;
             rows[4 * r + 3] = instance.translation[int(r)];
         }
-        e.rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
-        e.rtcCommitGeometry(geometry);
-        e.rtcAttachGeometryByID(scene.get(), geometry, unsigned(&instance - accel.instances().data()));
-        e.rtcReleaseGeometry(geometry);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene.get(), geometry, unsigned(&instance - accel.instances().data()));
+        rtcReleaseGeometry(geometry);
     }
-    e.rtcCommitScene(scene.get());
+    rtcCommitScene(scene.get());
     device->check("the benchmark's scene");
     return scene;
 }
@@ -92,7 +91,7 @@ void run(benchmark::State &state, const Trace &trace) {
 
 void embree_intersect(benchmark::State &state) {
     const Bvh scene = raw_scene(*World::get().scene.accel);
-    const auto intersect = embree().rtcIntersect1;
+    const auto intersect = rtcIntersect1;
     run(state, [&](const Ray &ray) {
         RTCRayHit query;
         query.ray = embree_ray(ray);
@@ -124,7 +123,7 @@ BENCHMARK(accel_intersect_and_interaction);
 
 void embree_occluded(benchmark::State &state) {
     const Bvh scene = raw_scene(*World::get().scene.accel);
-    const auto occluded = embree().rtcOccluded1;
+    const auto occluded = rtcOccluded1;
     run(state, [&](const Ray &ray) {
         RTCRay query = embree_ray(ray);
         RTCIntersectContext context;

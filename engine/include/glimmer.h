@@ -45,7 +45,7 @@ typedef enum glimmer_result {
               camera or film, to render one that is not committed; to start a render twice, to wait
               for one that was not started, to save one that runs, to load into one that started */
     GLIMMER_OUT_OF_MEMORY = 3,
-    GLIMMER_UNAVAILABLE = 4, /* from commit: Embree is missing, or of another version than the engine was built for */
+    GLIMMER_UNAVAILABLE = 4, /* from commit: this processor lacks what the engine was built for */
     GLIMMER_INTERNAL = 5     /* a defect of the engine; please report it */
 } glimmer_result;
 
@@ -58,6 +58,8 @@ typedef struct glimmer_render glimmer_render;
 GLIMMER_API uint32_t glimmer_abi_version(void);
 /* "MAJOR.MINOR.PATCH" */
 GLIMMER_API const char *glimmer_version(void);
+/* For people: the compiler, Embree, and which of its instruction sets the library uses on this processor. */
+GLIMMER_API const char *glimmer_build_info(void);
 /* The message of the last call on this thread that failed; "" if none did. Valid until this thread's next call. */
 GLIMMER_API const char *glimmer_last_error(void);
 

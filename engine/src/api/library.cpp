@@ -2,6 +2,8 @@
 // Version, last error and the tables.
 #include "api/handles.h"
 #include "film/passes.h"
+#include "geometry/embree.h"
+#include "math/simd/instruction_set.h"
 
 namespace glimmer {
 
@@ -31,6 +33,15 @@ uint32_t glimmer_abi_version(void) {
 
 const char *glimmer_version(void) {
     return GLIMMER_VERSION;
+}
+
+const char *glimmer_build_info(void) {
+#if defined(__clang__)
+#define GLIMMER_BUILT_WITH "Clang " __clang_version__ ", Embree " RTC_VERSION_STRING
+#else
+#define GLIMMER_BUILT_WITH "GCC " __VERSION__ ", Embree " RTC_VERSION_STRING
+#endif
+    return glimmer::has_avx512() ? GLIMMER_BUILT_WITH ", AVX-512" : GLIMMER_BUILT_WITH ", AVX2";
 }
 
 const char *glimmer_last_error(void) {

@@ -95,7 +95,7 @@ void set_transform(RTCGeometry geometry, unsigned step, const Instance &instance
         rows[4 * r + 2] = instance.linear[r].z;
         rows[4 * r + 3] = instance.translation[int(r)];
     }
-    embree().rtcSetGeometryTransform(geometry, step, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+    rtcSetGeometryTransform(geometry, step, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
 }
 
 } // namespace
@@ -205,38 +205,37 @@ Accel::Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motion
 
 /// Over what rays of a kind meet; of spheres over all, which are asked one by one.
 Bvh Accel::build(const std::vector<Bvh> &meshes, RayKind kind) {
-    const Embree &e = embree();
     Bvh bvh = new_bvh(*device_);
     for (size_t i = 0; i < instances_.size(); ++i) {
         const Instance &instance = instances_[i];
         if (!meets(kind, instance.visible))
             continue;
-        RTCGeometry geometry = e.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
-        e.rtcSetGeometryInstancedScene(geometry, meshes[i].get());
+        RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, meshes[i].get());
         if (instance.motion == kNone) {
             set_transform(geometry, 0, instance);
         } else {
             const InstanceMotion &motion = motions_[instance.motion];
-            e.rtcSetGeometryTimeStepCount(geometry, unsigned(motion.size()));
+            rtcSetGeometryTimeStepCount(geometry, unsigned(motion.size()));
             for (size_t k = 0; k < motion.size(); ++k)
                 set_transform(geometry, unsigned(k), motion[k]);
         }
-        e.rtcCommitGeometry(geometry);
-        e.rtcAttachGeometryByID(bvh.get(), geometry, unsigned(i));
-        e.rtcReleaseGeometry(geometry);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(bvh.get(), geometry, unsigned(i));
+        rtcReleaseGeometry(geometry);
     }
     if (!spheres_.empty()) {
-        RTCGeometry geometry = e.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_USER);
-        e.rtcSetGeometryUserPrimitiveCount(geometry, unsigned(spheres_.size()));
-        e.rtcSetGeometryUserData(geometry, &spheres_);
-        e.rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-        e.rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-        e.rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
-        e.rtcCommitGeometry(geometry);
-        e.rtcAttachGeometryByID(bvh.get(), geometry, unsigned(instances_.size()));
-        e.rtcReleaseGeometry(geometry);
+        RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, unsigned(spheres_.size()));
+        rtcSetGeometryUserData(geometry, &spheres_);
+        rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
+        rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(bvh.get(), geometry, unsigned(instances_.size()));
+        rtcReleaseGeometry(geometry);
     }
-    e.rtcCommitScene(bvh.get());
+    rtcCommitScene(bvh.get());
     device_->check("the scene");
     return bvh;
 }
@@ -262,7 +261,7 @@ std::optional<Hit> Accel::intersect(const Ray &ray, RayKind kind) const {
     context.ignored_sphere = kNone;
     context.kind = kind;
     context.visible = visible_.empty() ? nullptr : visible_.data();
-    embree().rtcIntersect1(scene(kind), &context.embree, &query);
+    rtcIntersect1(scene(kind), &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
     Hit hit;
@@ -285,7 +284,7 @@ bool Accel::occluded(const Ray &ray, RayKind kind, uint32_t ignored_sphere) cons
     context.ignored_sphere = ignored_sphere;
     context.kind = kind;
     context.visible = visible_.empty() ? nullptr : visible_.data();
-    embree().rtcOccluded1(scene(kind), &context.embree, &query);
+    rtcOccluded1(scene(kind), &context.embree, &query);
     return query.tfar < 0;
 }
 

@@ -3,42 +3,10 @@
 
 #include "base/error.h"
 
-#include <dlfcn.h>
 #include <mutex>
 #include <string>
 
 namespace glimmer {
-
-namespace {
-
-constexpr const char *kLibrary = "libembree3.so.3";
-
-Embree open_embree() {
-#if defined(GLIMMER_SANITIZED)
-    constexpr int flags = RTLD_NOW | RTLD_LOCAL; // sanitizers intercept symbols, which DEEPBIND forbids
-#else
-    constexpr int flags = RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND;
-#endif
-    void *library = dlopen(kLibrary, flags);
-    if (!library)
-        throw Error(GLIMMER_UNAVAILABLE,
-                    std::string("Embree 3.13 could not be loaded (Debian: apt install libembree3-3): ") + dlerror());
-    Embree e{};
-#define GLIMMER_LOAD(name)                                                                                             \
-    e.name = reinterpret_cast<decltype(e.name)>(dlsym(library, #name));                                                \
-    if (!e.name)                                                                                                       \
-        throw Error(GLIMMER_UNAVAILABLE, std::string(kLibrary) + " has no function " #name);
-    GLIMMER_EMBREE_FUNCTIONS(GLIMMER_LOAD)
-#undef GLIMMER_LOAD
-    return e;
-}
-
-} // namespace
-
-const Embree &embree() {
-    static const Embree table = open_embree();
-    return table;
-}
 
 /// That a device could not be made.
 [[noreturn]] static void fail_device(RTCError error) {
@@ -51,31 +19,23 @@ const Embree &embree() {
 }
 
 EmbreeDevice::EmbreeDevice(uint32_t threads) : threads_(threads) {
-    const Embree &e = embree();
     const std::string config = threads ? "threads=" + std::to_string(threads) : "";
-    device_ = e.rtcNewDevice(config.c_str());
+    device_ = rtcNewDevice(config.c_str());
     if (!device_)
-        fail_device(e.rtcGetDeviceError(nullptr));
-    const auto major = e.rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
-    const auto minor = e.rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_VERSION_MINOR);
-    if (major != RTC_VERSION_MAJOR || minor < RTC_VERSION_MINOR) {
-        e.rtcReleaseDevice(device_);
-        throw Error(GLIMMER_UNAVAILABLE, "Embree " + std::to_string(major) + "." + std::to_string(minor) +
-                                             " was found; the engine was built for " RTC_VERSION_STRING);
-    }
+        fail_device(rtcGetDeviceError(nullptr));
     const auto count = [](void *bytes, ssize_t change, bool) {
         *static_cast<std::atomic<ptrdiff_t> *>(bytes) += change;
         return true; // go on
     };
-    e.rtcSetDeviceMemoryMonitorFunction(device_, count, &bytes_);
+    rtcSetDeviceMemoryMonitorFunction(device_, count, &bytes_);
 }
 
 EmbreeDevice::~EmbreeDevice() {
-    embree().rtcReleaseDevice(device_);
+    rtcReleaseDevice(device_);
 }
 
 void EmbreeDevice::check(const char *what) const {
-    switch (embree().rtcGetDeviceError(device_)) {
+    switch (rtcGetDeviceError(device_)) {
     case RTC_ERROR_NONE:
         return;
     case RTC_ERROR_OUT_OF_MEMORY:
@@ -86,12 +46,11 @@ void EmbreeDevice::check(const char *what) const {
 }
 
 Bvh new_bvh(const EmbreeDevice &device) {
-    const Embree &e = embree();
-    const RTCScene scene = e.rtcNewScene(device.handle());
+    const RTCScene scene = rtcNewScene(device.handle());
     if (!scene)
         device.check("a scene");
-    e.rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // without it rays slip through edges
-    return {scene, [](RTCScene s) { embree().rtcReleaseScene(s); }};
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // without it rays slip through edges
+    return {scene, [](RTCScene s) { rtcReleaseScene(s); }};
 }
 
 std::shared_ptr<const EmbreeDevice> embree_device(uint32_t threads) {

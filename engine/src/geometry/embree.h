@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Embree, reached only through this table of function pointers. Blender carries its own libembree and libtbb; a library
-// linked the usual way binds to those and crashes or silently finds no hits, so ours is opened privately (RTLD_LOCAL |
-// RTLD_DEEPBIND).
+// Embree, linked into the engine's libraries and hidden there: Blender carries its own libembree, and a library that
+// met that one would crash or silently find no hits.
 #pragma once
 
 #include <algorithm>
@@ -14,47 +13,11 @@
 
 namespace glimmer {
 
-#define GLIMMER_EMBREE_FUNCTIONS(X)                                                                                    \
-    X(rtcNewDevice)                                                                                                    \
-    X(rtcReleaseDevice)                                                                                                \
-    X(rtcGetDeviceError)                                                                                               \
-    X(rtcSetDeviceMemoryMonitorFunction)                                                                               \
-    X(rtcGetDeviceProperty)                                                                                            \
-    X(rtcNewScene)                                                                                                     \
-    X(rtcReleaseScene)                                                                                                 \
-    X(rtcSetSceneFlags)                                                                                                \
-    X(rtcCommitScene)                                                                                                  \
-    X(rtcNewGeometry)                                                                                                  \
-    X(rtcReleaseGeometry)                                                                                              \
-    X(rtcCommitGeometry)                                                                                               \
-    X(rtcAttachGeometryByID)                                                                                           \
-    X(rtcSetSharedGeometryBuffer)                                                                                      \
-    X(rtcSetGeometryInstancedScene)                                                                                    \
-    X(rtcSetGeometryTransform)                                                                                         \
-    X(rtcSetGeometryTimeStepCount)                                                                                     \
-    X(rtcSetGeometryUserPrimitiveCount)                                                                                \
-    X(rtcSetGeometryUserData)                                                                                          \
-    X(rtcSetGeometryBoundsFunction)                                                                                    \
-    X(rtcSetGeometryIntersectFunction)                                                                                 \
-    X(rtcSetGeometryOccludedFunction)                                                                                  \
-    X(rtcIntersect1)                                                                                                   \
-    X(rtcOccluded1)
-
-struct Embree {
-#define GLIMMER_DECLARE(name) decltype(&::name) name;
-    GLIMMER_EMBREE_FUNCTIONS(GLIMMER_DECLARE)
-#undef GLIMMER_DECLARE
-};
-
-/// Opened at the first call and kept until the process ends (its worker threads may outlive any scene). Throws
-/// Error(GLIMMER_UNAVAILABLE) when Embree is missing.
-const Embree &embree();
-
 /// What BVHs are built with, and what counts their memory. BVHs of one device alone can be joined in a scene.
 class EmbreeDevice {
   public:
-    /// threads: the most that build (0: all). Throws Error(GLIMMER_UNAVAILABLE) when Embree is missing or of another
-    /// version than the headers.
+    /// threads: the most that build (0: all). Throws Error(GLIMMER_UNAVAILABLE) on a processor that Embree was not
+    /// built for.
     explicit EmbreeDevice(uint32_t threads);
     ~EmbreeDevice();
     EmbreeDevice(const EmbreeDevice &) = delete;

@@ -20,18 +20,17 @@ Bvh Mesh::bvh(const std::shared_ptr<const EmbreeDevice> &device) const {
     if (bvh_ && device_ == device)
         return bvh_;
     bvh_ = nullptr;
-    const Embree &e = embree();
     const size_t before = device->bytes();
     const Bvh built = new_bvh(*device);
-    RTCGeometry geometry = e.rtcNewGeometry(device->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    e.rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0,
-                                 sizeof(Vec3f), vertices.size() - 1);
-    e.rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
-                                 sizeof(triangles[0]), triangles.size());
-    e.rtcCommitGeometry(geometry);
-    e.rtcAttachGeometryByID(built.get(), geometry, 0);
-    e.rtcReleaseGeometry(geometry);
-    e.rtcCommitScene(built.get());
+    RTCGeometry geometry = rtcNewGeometry(device->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0,
+                               sizeof(Vec3f), vertices.size() - 1);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
+                               sizeof(triangles[0]), triangles.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(built.get(), geometry, 0);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(built.get());
     device->check(("mesh \"" + name + "\"").c_str());
     // Of a build on another thread meanwhile a part is counted here: the sum over meshes stays about right.
     bvh_bytes_ = std::max(device->bytes(), before) - before;
