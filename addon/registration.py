@@ -12,7 +12,8 @@ import sys
 import bpy
 
 from . import callbacks, curve_files, engine, failure, hexfield, moons, operators, properties, reports, ui
-from .native import render
+from .native import library, render
+from .scene.problems import GlimmerError
 from .viewport import redraw
 from .viewport import session as view_session
 
@@ -33,6 +34,10 @@ def register() -> None:
             _folder(__package__),
         )
         return
+    try:
+        library.find()
+    except GlimmerError as error:  # the preferences and the render properties say so too
+        _log.error("%s", error)
     try:
         for part in _PARTS:
             part.register()

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from ..scene.problems import EngineWarning, GlimmerError
-from . import structs
+from . import machine, structs
 from .ops import OpRow, op_rows
 from .structs import ABI_VERSION, INITIALISERS, Result
 
@@ -28,6 +28,7 @@ _RESULT = c_int
 SIGNATURES: dict[str, tuple[object, list[object]]] = {
     "glimmer_abi_version": (c_uint32, []),
     "glimmer_version": (c_char_p, []),
+    "glimmer_build_info": (c_char_p, []),
     "glimmer_last_error": (c_char_p, []),
     "glimmer_mesh_create": (_RESULT, [POINTER(structs.MeshDesc), POINTER(c_void_p)]),
     "glimmer_mesh_destroy": (None, [c_void_p]),
@@ -190,6 +191,10 @@ class Library:
     def version(self) -> str:
         return str(self._library.glimmer_version().decode())
 
+    def build_info(self) -> str:
+        """Compiler, Embree and the instruction set in use, in words."""
+        return str(self._library.glimmer_build_info().decode())
+
     def warnings(self, scene: c_void_p) -> list[EngineWarning]:
         text = self._library.glimmer_scene_warnings(scene) or b""
         lines = [line for line in text.decode("utf-8", "replace").splitlines() if line]
@@ -231,11 +236,21 @@ class Library:
         return rows
 
 
-@cache
-def load() -> Library:
-    """The engine, loaded once a process. Raises GlimmerError when there is none that fits."""
+def find() -> Path:
+    """The library of this add-on. Raises GlimmerError where there is none, or none that can run on this machine, before
+    any of its code runs.
+    """
     places = candidates()
     for path in places:
         if path.is_file():
-            return Library(path)
+            refusal = machine.refusal(path)
+            if refusal:
+                raise GlimmerError(refusal)
+            return path
     raise GlimmerError("The engine's library is missing; looked for " + " and ".join(str(path) for path in places))
+
+
+@cache
+def load() -> Library:
+    """The engine, loaded once a process. Raises GlimmerError when there is none that fits."""
+    return Library(find())

@@ -1,9 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panels: Blender's own that apply to us, and ours."""
 
-from . import camera, compatible, differences, error, light, material, motion, object, render, view_layer, world
+from . import (
+    camera,
+    compatible,
+    differences,
+    error,
+    light,
+    material,
+    motion,
+    object,
+    preferences,
+    render,
+    view_layer,
+    world,
+)
 
-_PARTS = (compatible, render, differences, motion, error, view_layer, object, camera, light, material, world)
+_PARTS = (
+    compatible,
+    render,
+    differences,
+    motion,
+    error,
+    view_layer,
+    object,
+    camera,
+    light,
+    material,
+    world,
+    preferences,
+)
 
 
 def register() -> None:

@@ -5,7 +5,6 @@ Looked for when a panel is drawn and something that matters has changed, and not
 nodes are translated for it, as for a render.
 """
 
-import textwrap
 import time
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +14,7 @@ from bpy.app.handlers import persistent
 
 from ..export.differences import find_differences
 from ..scene.problems import Notice, describe
-from .panel import GlimmerPanel
+from .panel import GlimmerPanel, wrapped
 
 MOST_LINES = 40  # that a panel shows
 PATIENCE = 10.0  # times what a search takes, until the next one
@@ -51,17 +50,11 @@ def of_material(found: tuple[Notice, ...], name: str) -> list[Notice]:
     return [notice for notice in found if f"material '{name}'" in notice.where]
 
 
-def wrapped(text: str, width: int) -> list[str]:
-    """Lines of a text in a region so many pixels wide."""
-    return textwrap.wrap(text, max(width // 8, 24))
-
-
 def draw_notices(layout: bpy.types.UILayout, notices: list[Notice], context: bpy.types.Context) -> None:
-    width = int(context.region.width / context.preferences.system.ui_scale) if context.region is not None else 400
     column = layout.column(align=True)
     lines = 0
     for number, notice in enumerate(notices):
-        texts = wrapped(str(notice), width - 60)
+        texts = wrapped(str(notice), context)
         if lines + len(texts) > MOST_LINES:
             column.label(text=f"and {len(notices) - number} more, which a render lists in the info log", icon="BLANK1")
             return

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
+import textwrap
+
 import bpy
 
 from .compatible import ENGINE
@@ -15,6 +17,21 @@ class GlimmerPanel:
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return context.engine == ENGINE
+
+
+def wrapped(text: str, context: bpy.types.Context) -> list[str]:
+    """Lines of a text, as long as the region is wide."""
+    width = 400.0
+    if context.region is not None:
+        width = context.region.width / context.preferences.system.ui_scale
+    return textwrap.wrap(text, max(int(width - 60) // 8, 24))
+
+
+def draw_wrapped(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
+    column = layout.column(align=True)
+    column.alert = icon == "ERROR"
+    for index, line in enumerate(wrapped(text, context)):
+        column.label(text=line, icon="BLANK1" if index else icon)
 
 
 def draw_node_input(layout: bpy.types.UILayout, tree: bpy.types.NodeTree, name: str) -> None:

@@ -3,7 +3,9 @@
 import bpy
 
 from .. import reports
-from .panel import GlimmerPanel
+from ..native.library import load
+from ..scene.problems import GlimmerError
+from .panel import GlimmerPanel, draw_wrapped
 
 
 def _limit(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, switch: str, value: str) -> None:
@@ -23,6 +25,10 @@ class GLIMMER_PT_sampling(GlimmerPanel, bpy.types.Panel):
         layout, settings = self.layout, context.scene.glimmer
         layout.use_property_split = True
         layout.use_property_decorate = False
+        try:
+            load()
+        except GlimmerError as error:
+            draw_wrapped(layout, context, str(error), "ERROR")
         layout.prop(settings, "integrator")
         _limit(layout, settings, "use_samples", "samples")
         _limit(layout, settings, "use_seconds", "seconds")

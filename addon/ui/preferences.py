@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the add-on's entry in Blender's preferences shows: which engine is at work, or why none is."""
+
+import bpy
+
+from ..native import machine
+from ..native.library import load
+from ..scene.problems import GlimmerError
+from .panel import draw_wrapped
+
+ADDON = __package__.rpartition(".")[0]
+
+
+class GlimmerPreferences(bpy.types.AddonPreferences):
+    bl_idname = ADDON
+
+    def draw(self, context: bpy.types.Context) -> None:
+        try:
+            engine = load()
+        except GlimmerError as error:
+            draw_wrapped(self.layout, context, str(error), "ERROR")
+            return
+        draw_wrapped(self.layout, context, f"Glimmer {engine.version()}: {engine.build_info()}", "CHECKMARK")
+        glibc = ".".join(map(str, machine.GLIBC))
+        draw_wrapped(self.layout, context, f"For Linux with glibc {glibc} or later, on x86-64 with AVX2", "BLANK1")
+
+
+def register() -> None:
+    bpy.utils.register_class(GlimmerPreferences)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(GlimmerPreferences)
