@@ -26,6 +26,38 @@ if TYPE_CHECKING:
 BulkReader = Callable[["bpy.types.Object", "bpy.types.Depsgraph"], "Sequence[tuple[bpy.types.Object, Any]] | None"]
 
 
+@dataclass(frozen=True, eq=False)
+class Record:
+    """What Blender says of one instance."""
+
+    instancers: tuple[Any, ...]  # whose properties it has: the settings of its particles, its instancer and its data
+    generated: tuple[float, float, float]  # where it stands in its instancer's own coordinates
+    uv: tuple[float, float]
+    particle_index: int
+    particle: dict[str, tuple[float, ...]]  # by the names of a Particle Info node's outputs; empty for none
+
+
+def _record(instance: Any, frame: float) -> Record:
+    parent, system = instance.parent, instance.particle_system
+    own: tuple[Any, ...] = () if parent is None else (parent.original, parent.original.data)
+    orco, uv = tuple(instance.orco), tuple(instance.uv)
+    if system is None:
+        return Record(own, orco, uv, 0, {})
+    index = instance.persistent_id[0]
+    values: dict[str, tuple[float, ...]] = {}
+    if 0 <= index < len(system.particles):
+        particle = system.particles[index]
+        values = {
+            "Age": (frame - particle.birth_time,),
+            "Lifetime": (particle.lifetime,),
+            "Size": (particle.size,),
+            "Location": tuple(particle.location),
+            "Velocity": tuple(particle.velocity),
+            "Angular Velocity": tuple(particle.angular_velocity),
+        }
+    return Record((system.settings.original, *own), orco, uv, index, values)
+
+
 @dataclass(eq=False)
 class Placed:
     """An evaluated object and where it stands, once or many times."""
@@ -36,6 +68,7 @@ class Placed:
     random_ids: list[int] | None = None  # Blender's, one a matrix; None: not asked for
     # One a member of `matrices`: the same object, or instances by the same object, at all moments.
     ids: list[Hashable] = field(default_factory=list)
+    records: list[Record] = field(default_factory=list)  # of instances that Blender listed, one a matrix
     instancer: bpy.types.Object | None = None  # the last of those that it is an instance by
     visibility: Visibility = SEEN
 
@@ -193,6 +226,7 @@ def _by_loop(
         shown = ((False, instance.show_self), (True, instance.show_particles))
         return [(*whose, strands, known[pair]) for strands, is_shown in shown if is_shown]
 
+    frame = depsgraph.scene_eval.frame_current_final
     for instance in depsgraph.object_instances:
         if not instance.is_instance:
             item = instance.object
@@ -216,6 +250,7 @@ def _by_loop(
             group.matrices.append(matrix)
             group.ids.append(ident)
             group.instancer = parent.original
+            group.records.append(_record(instance, frame))
             group.random_ids.append(random)  # type: ignore[union-attr]
     if not groups:
         return

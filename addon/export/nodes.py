@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..native.library import load
-from ..scene.description import Rgb
+from ..scene.description import Rgb, SkySun
 from ..scene.problems import Notices
 from ..scene.program import Op
 from .color import blackbody, luminance, mean_fresnel, srgb_to_linear
-from .translate import arithmetic, image, pattern, surface, vector
+from .translate import arithmetic, image, pattern, sky, surface, vector
 from .translate import color as color_nodes
 from .translate.values import Number, Triple, Value, converted, number, triple
 
@@ -113,8 +113,10 @@ class Nodes:
         self.version = blender_version()
         self.frame = self.images.frame  # of the scene
         self.is_sky = False  # the tree is a world's
+        self.sky_sun: SkySun | None = None  # of a Sky Texture that was met
         self.material_index = 0  # Blender's pass index
-        self.constants_only = False  # nothing may vary, as in a scene file
+        self.constants_only = False  # nothing may vary
+        self.layer_property = self.images.layer_property  # by its name, of the view layer, the scene or its world
         self.bumped_normal: Op | None = None  # by the material's displacement: what nodes know as the normal
         self.shift = "center"  # where a bump asks for its height
         self.shift_width: Number = 1.0
@@ -589,8 +591,10 @@ _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeTexGradient": pattern.gradient,
     "ShaderNodeTexMagic": pattern.magic,
     "ShaderNodeTexBrick": pattern.brick,
+    "ShaderNodeTexGabor": pattern.gabor,
     "ShaderNodeTexImage": image.image_texture,
     "ShaderNodeTexEnvironment": image.image_texture,
+    "ShaderNodeTexSky": sky.sky_texture,
     "ShaderNodeTexCoord": surface.texture_coordinate,
     "ShaderNodeUVMap": surface.uv_map,
     "ShaderNodeAttribute": surface.attribute_node,
@@ -603,6 +607,8 @@ _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeFresnel": surface.fresnel,
     "ShaderNodeLayerWeight": surface.layer_weight,
     "ShaderNodeBump": surface.bump,
+    "ShaderNodeWireframe": surface.wireframe,
+    "ShaderNodeParticleInfo": surface.particle_info,
     "ShaderNodeWavelength": color_nodes.wavelength,
     "ShaderNodeNormalMap": surface.normal_map,
 }

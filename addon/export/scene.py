@@ -13,6 +13,7 @@ import numpy as np
 from ..scene.description import (
     BLACK,
     Add,
+    Attribute,
     Camera,
     Film,
     Floats,
@@ -29,6 +30,7 @@ from ..scene.description import (
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
 from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
+from .instance_attributes import instance_attributes, property_of
 from .light import export_lamp
 from .material import export_material
 from .mesh import export_mesh, flattened
@@ -91,7 +93,7 @@ def export_scene(
     """Raises GlimmerError when no picture can be made of the scene.
 
     view: of the evaluated scene. version: Blender's. readers: see BulkReader. is_shown: of an evaluated object, for
-    what the depsgraph does not know (a local view). constants_only: materials do not vary, as in a scene file.
+    what the depsgraph does not know (a local view). constants_only: materials do not vary.
     set_frame: evaluates the depsgraph at another moment; without it nothing is blurred by motion.
     """
     start = time.perf_counter()
@@ -229,6 +231,11 @@ def _slots(item: bpy.types.Object) -> list[bpy.types.Material | None]:
     return [slot.material for slot in item.material_slots] or [None]
 
 
+def _of_some(attributes: tuple[Attribute, ...], chosen: Any) -> tuple[Attribute, ...]:
+    """Of some of the instances."""
+    return tuple(replace(item, values=item.values[chosen]) for item in attributes)
+
+
 class _Collector:
     def __init__(
         self,
@@ -250,7 +257,9 @@ class _Collector:
         self._notices = notices
         self._material_numbers: dict[tuple[int, bool], int] = {}
         self._override = depsgraph.view_layer_eval.material_override
-        self.images = Images(depsgraph.scene_eval.frame_current)
+        scene = depsgraph.scene_eval
+        owners = (depsgraph.view_layer_eval, scene, scene.world)
+        self.images = Images(scene.frame_current, lambda name: property_of(owners, name))
         self._meshes: dict[tuple[int, int, frozenset[str]], Mesh | None] = {}
 
     def add(self, placed: Placed) -> None:
@@ -299,6 +308,7 @@ class _Collector:
     def _add_object(self, placed: Placed, matrices: Floats, mesh: Mesh, materials: tuple[int, ...]) -> None:
         """Those whose scale is 0 along an axis are meshes of their own: the engine's instances have an inverse."""
         dimensions, randoms = dimensions_left(matrices), placed.randoms()
+        attributes = instance_attributes(placed, self._attributes(materials))
         solid, flat = dimensions == 3, dimensions == 2
         if flat.any():
             self._notices.add(
@@ -314,17 +324,18 @@ class _Collector:
             if moving.sum() < motion.moving.sum():
                 self._notices.add(place(placed.item.name), f"is flat and moves while the shutter is open, {HELD_STILL}")
             part = self._part(placed, mesh, materials)
+            part = replace(part, attributes=_of_some(attributes, moving))
             self._add_moving(part, matrices[moving], randoms[moving], motion.steps[:, solid[motion.moving]])
             solid &= ~moving
-        for matrix, random in zip(matrices[flat], randoms[flat], strict=True):
-            self._add_placed(placed, np.eye(4)[None], np.array([random]), flattened(mesh, matrix), materials)
+        for i in np.flatnonzero(flat):
+            part = self._part(placed, flattened(mesh, matrices[i]), materials)
+            part = replace(part, attributes=_of_some(attributes, [i]))
+            self._add_placed(part, np.eye(4)[None], randoms[[i]])
         if solid.any():
-            self._add_placed(placed, matrices[solid], randoms[solid], mesh, materials)
+            part = replace(self._part(placed, mesh, materials), attributes=_of_some(attributes, solid))
+            self._add_placed(part, matrices[solid], randoms[solid])
 
-    def _add_placed(
-        self, placed: Placed, matrices: Floats, randoms: Floats, mesh: Mesh, materials: tuple[int, ...]
-    ) -> None:
-        part = self._part(placed, mesh, materials)
+    def _add_placed(self, part: Object, matrices: Floats, randoms: Floats) -> None:
         if len(matrices) > 1:
             self.objects.append(replace(part, instances=matrices, random=randoms))
         else:
@@ -352,7 +363,8 @@ class _Collector:
             return
         smooth = smooth_motion(steps, self._recording.shutter)
         for i, random in enumerate(randoms):
-            self.objects.append(replace(part, motion=smooth[:, i], random=float(random)))
+            own = _of_some(part.attributes, [i])
+            self.objects.append(replace(part, motion=smooth[:, i], random=float(random), attributes=own))
 
     def _motion(self, placed: Placed) -> Motion | None:
         """None where nothing moves."""

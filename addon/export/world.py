@@ -90,7 +90,7 @@ def _sky_program(nodes: Nodes, surface: Input) -> Environment | None:
     except TooLargeError as error:
         nodes.notices.add(nodes.where, f"its nodes cannot be rendered, since {error}; constants are used")
         return None
-    return Environment(radiance=(1.0, 1.0, 1.0), program=program)
+    return Environment(radiance=(1.0, 1.0, 1.0), program=program, sun=nodes.sky_sun)
 
 
 def _varies_beyond_an_image(nodes: Nodes, item: Input) -> bool:
@@ -110,11 +110,8 @@ def _varies_beyond_an_image(nodes: Nodes, item: Input) -> bool:
     if not _is_constant(nodes, Input(source.node.inputs["Strength"], source.groups)):
         return True
     made_by = nodes.source(color)
-    if made_by is not None and made_by.node is not None:
-        if made_by.node.bl_idname == "ShaderNodeTexSky":
-            return False
-        if made_by.node.bl_idname == "ShaderNodeTexEnvironment":
-            return not _is_plain(nodes, made_by)
+    if made_by is not None and made_by.node is not None and made_by.node.bl_idname == "ShaderNodeTexEnvironment":
+        return not _is_plain(nodes, made_by)
     return not _is_constant(nodes, color)
 
 

@@ -15,6 +15,7 @@ class OpRow:
     modes: tuple[tuple[str, ...], ...]  # the words of each field
     inputs: str
     output: str
+    resource: str
 
 
 def op_rows(info: Any) -> dict[str, OpRow]:
@@ -24,6 +25,10 @@ def op_rows(info: Any) -> dict[str, OpRow]:
         entry = row.contents
         fields = entry.modes.decode().split("|")
         rows[entry.name.decode()] = OpRow(
-            len(rows), tuple(tuple(field.split()) for field in fields), entry.inputs.decode(), entry.output.decode()
+            len(rows),
+            tuple(tuple(field.split()) for field in fields),
+            entry.inputs.decode(),
+            entry.output.decode(),
+            entry.resource.decode(),
         )
     return rows

@@ -172,7 +172,10 @@ class NativeScene:
         if item.motion is not None:
             motion = np.ascontiguousarray(item.motion, np.float64)
             desc.motion_count, desc.motion = len(motion), _pointer(motion)
+        attributes, keep = attribute_structs(item.attributes)
+        desc.attribute_count, desc.attributes = len(attributes), ctypes.addressof(attributes)
         self.library.call("glimmer_scene_add_object", self.handle, byref(desc))
+        del keep
 
     def _add_spheres(self, spheres: d.Spheres, materials: list[int]) -> None:
         desc = self.library.init(structs.SpheresDesc)
@@ -204,6 +207,9 @@ class NativeScene:
             finally:
                 programs.close()
             self.library.call("glimmer_scene_bind_environment", self.handle, number, 0)
+            if environment.sun is not None:
+                direction = (c_double * 3)(*environment.sun.direction)
+                self.library.call("glimmer_scene_bind_sun", self.handle, direction, environment.sun.angle)
             return
         image = c_void_p()
         if environment.image is not None:

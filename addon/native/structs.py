@@ -88,6 +88,7 @@ class AttributeDomain(IntEnum):
     VERTEX = 0
     CORNER = 1
     FACE = 2
+    INSTANCE = 3
 
 
 class Attribute(ctypes.Structure):
@@ -192,6 +193,8 @@ class ObjectDesc(ctypes.Structure):
         ("motion_count", c_size_t),
         ("visible", c_uint32),
         ("holdout", c_int),
+        ("attribute_count", c_size_t),
+        ("attributes", c_void_p),
     ]
 
 

@@ -255,10 +255,10 @@ class NamedMaterial:
 
 @dataclass(frozen=True, eq=False)
 class Attribute:
-    """What shader programs ask a mesh for."""
+    """What shader programs ask a mesh or its instances for."""
 
     name: str
-    domain: str  # "vertex", "corner" (three rows a triangle) or "face" (a row a triangle)
+    domain: str  # "vertex", "corner" (three rows a triangle), "face" (a row a triangle) or "instance"
     values: NDArray[np.float32]  # (n, 1 to 4)
 
 
@@ -298,6 +298,7 @@ class Object:
     motion: Floats | None = None  # (steps, 4, 4), evenly spaced while the shutter is open, in place of to_world
     rays: Rays = EVERY_RAY  # that meet it
     is_holdout: bool = False  # black where the camera sees it
+    attributes: tuple[Attribute, ...] = ()  # of instances: a row each
 
 
 @dataclass(frozen=True, eq=False)
@@ -371,13 +372,22 @@ class AreaLight:
 Lamp = PointLight | SpotLight | SunLight | AreaLight
 
 
+@dataclass(frozen=True)
+class SkySun:
+    """The sun of a sky that a program gives, which shows it where it is asked for its `sun_disc`."""
+
+    direction: tuple[float, float, float]  # of its light's travel
+    angle: float  # full, degrees
+
+
 @dataclass(frozen=True, eq=False)
 class Environment:
     radiance: Rgb = BLACK  # one grey that multiplies the image where there is one
     image: NDArray[np.float32] | None = None  # (height, width, 3) linear, top row first, centre along +y, z up
     to_world: Floats = field(default_factory=lambda: np.eye(4))
-    program: Program | None = None  # its first output is the radiance; the rest is then not looked at
+    program: Program | None = None  # its first output is the radiance; but for the sun the rest is then not looked at
     rays: Rays = EVERY_RAY  # that see it
+    sun: SkySun | None = None  # of the program
 
 
 @dataclass(frozen=True)

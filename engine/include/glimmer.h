@@ -71,7 +71,8 @@ typedef enum glimmer_format { GLIMMER_FLOAT32 = 0, GLIMMER_FLOAT64 = 1 } glimmer
 typedef enum glimmer_attribute_domain {
     GLIMMER_PER_VERTEX = 0,
     GLIMMER_PER_CORNER = 1, /* three rows a triangle, in their order */
-    GLIMMER_PER_TRIANGLE = 2
+    GLIMMER_PER_TRIANGLE = 2,
+    GLIMMER_PER_INSTANCE = 3 /* of an object, not of a mesh */
 } glimmer_attribute_domain;
 
 typedef struct glimmer_attribute {
@@ -242,6 +243,10 @@ GLIMMER_API glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t mat
 /* The environment's radiance is an output of a program, in place of glimmer_scene_set_environment. It is asked for
    positions: directions of unit length into the sky. */
 GLIMMER_API glimmer_result glimmer_scene_bind_environment(glimmer_scene *scene, uint32_t program, uint32_t output);
+/* The bound environment has a sun, which its program shows where geometry_number's sun_disc is 1. The camera sees it in
+   the sky; its light is that of a lamp, of the mean of the disc. direction: of the light's travel, not 0; angle: full,
+   in degrees, above 0 and up to 180. */
+GLIMMER_API glimmer_result glimmer_scene_bind_sun(glimmer_scene *scene, const double direction[3], double angle);
 
 /* What rays are for, as a set of bits: objects, lights and the environment may be hidden from some. A ray that goes
  * straight through a surface keeps its kind. */
@@ -278,6 +283,8 @@ typedef struct glimmer_object_desc {
     uint32_t visible;    /* set of glimmer_ray that meet it; default all */
     int holdout;         /* not 0: a hole where the camera sees it, also through what is transparent: black, whatever is
                             behind it. Other rays meet it as it is */
+    size_t attribute_count;                     /* up to 256 */
+    const struct glimmer_attribute *attributes; /* per instance: what programs find in place of the mesh's own */
 } glimmer_object_desc;
 
 GLIMMER_API void glimmer_object_init(glimmer_object_desc *desc);

@@ -106,9 +106,22 @@ def noises() -> Iterator[Case]:
             }
             settings = Values({"musgrave_dimensions": d, "musgrave_type": kind})
             yield f"musgrave {d} {kind} {detail}", texture("ShaderNodeTexMusgrave", 0, values, **settings)
+    yield from gabors() if VERSION >= (4, 3) else ()
     yield "noise without detail", texture("ShaderNodeTexNoise", 0, {"Detail": 0.0})
     for d, out in product(("1D", "2D", "3D", "4D"), (0, 1)):
         yield f"white noise {d} {out}", white_noise(d, out)
+
+
+def gabors() -> Iterator[Case]:
+    for kind, out, anisotropy in product(("2D", "3D"), ("Value", "Phase", "Intensity"), (1.0, 0.4)):
+        inputs: Values = {
+            "Scale": 1.7,
+            "Frequency": 1.3,
+            "Anisotropy": anisotropy,
+            "Orientation 2D": 0.7,
+            "Orientation 3D": (0.3, 0.5, 0.7),
+        }
+        yield f"gabor {kind} {out} {anisotropy}", texture("ShaderNodeTexGabor", out, inputs, gabor_type=kind)
 
 
 def white_noise(dimensions: str, out: int) -> Build:
@@ -422,6 +435,9 @@ def surfaces() -> Iterator[Case]:
         yield f"camera {out}", node("ShaderNodeCameraData", out)
     for out in ("Is Camera Ray", "Is Shadow Ray", "Is Glossy Ray", "Ray Depth"):
         yield f"ray {out}", node("ShaderNodeLightPath", out)
+    for in_pixels in (False, True):
+        size = 3.0 if in_pixels else 0.3
+        yield f"wireframe {in_pixels}", node("ShaderNodeWireframe", inputs={0: size}, use_pixel_size=in_pixels)
     yield "uv map", node("ShaderNodeUVMap", uv_map="UVMap")
     yield "attribute of the uv map", node("ShaderNodeAttribute", 1, attribute_name="UVMap")
     yield "fresnel", node("ShaderNodeFresnel", inputs={0: 1.4})
@@ -477,6 +493,32 @@ def displacements() -> Iterator[Case]:
         yield f"{kind} {space}", displaced
 
 
+def skies() -> Iterator[Case]:
+    kind = "ShaderNodeTexSky"
+    dust = "dust_density" if VERSION < (5, 0) else "aerosol_density"
+    for model in enumeration(kind, "sky_type"):
+        if model in ("PREETHAM", "HOSEK_WILKIE"):
+            variants = [
+                Values({"sun_direction": (0.3, 0.5, 0.6), "turbidity": 2.2}),
+                Values({"sun_direction": (-0.7, 0.1, 0.2), "turbidity": 4.5, "ground_albedo": 0.8}),
+            ]
+        else:
+            large = Values({"sun_disc": True, "sun_size": 0.4, "sun_intensity": 0.02})
+            thick = Values({dust: 3.0, "air_density": 1.5, "ozone_density": 2.0, "altitude": 2000.0})
+            variants = [
+                Values({"sun_disc": False, "sun_elevation": 0.26, "sun_rotation": 0.7}),
+                Values({**large, **thick, "sun_elevation": 0.6, "sun_rotation": 4.0}),
+                Values({**large, "sun_elevation": 0.1, "sun_rotation": -1.0}),
+            ]
+        for number, settings in enumerate(variants):
+
+            def sky(tree: Any, settings: dict[str, Any] = settings, model: str = model) -> Any:
+                direction = make(tree, "ShaderNodeVectorMath", inputs={0: moved(tree)}, operation="NORMALIZE")
+                return make(tree, kind, inputs={"Vector": direction}, sky_type=model, **settings)
+
+            yield f"sky {model} {number}", sky
+
+
 FAMILIES: dict[str, Callable[[], list[Case]]] = {
     "noises": lambda: list(noises()),
     "voronois": lambda: list(voronois()),
@@ -485,4 +527,5 @@ FAMILIES: dict[str, Callable[[], list[Case]]] = {
     "colors": lambda: list(colors()),
     "images": lambda: list(images()),
     "surfaces": lambda: list(surfaces()),
+    "skies": lambda: list(skies()),
 }

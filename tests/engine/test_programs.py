@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from addon.scene.program import NUMBERS, Op, Table, Texture, compile_program
+from addon.scene.program import INPUTS, NUMBERS, RESOURCES, Op, Table, Texture, compile_program
 from tests.engine.probe import program as probe
 
 POSITION = Op("geometry", (1.0,), ("position", "center"))
@@ -26,8 +26,14 @@ def axis(name: str) -> Op:
     return Op("separate", (POSITION,), (name,))
 
 
-def test_the_add_on_knows_which_operations_give_numbers() -> None:
-    assert {name for name, row in probe.rows().items() if row.output == "n"} == NUMBERS
+def test_the_add_on_knows_the_operations() -> None:
+    rows = probe.rows()
+    kinds = {"table": "t", "texture": "i", "attribute": "a"}
+    assert {name for name, row in rows.items() if row.output == "n"} == NUMBERS
+    assert {name: row.inputs for name, row in rows.items()} == INPUTS
+    assert {name: row.resource for name, row in rows.items() if row.resource != "-"} == {
+        name: kinds[word] for name, word in RESOURCES.items()
+    }
 
 
 def test_arithmetic() -> None:

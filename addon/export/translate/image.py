@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,11 +35,16 @@ LINEAR_SPACES = ("Linear", "Linear Rec.709")
 KNOWN_SPACES = (*DATA_SPACES, *LINEAR_SPACES, "sRGB")
 
 
-class Images:
-    """The images of one export, each read once; frame: of the scene."""
+LayerProperty = Callable[[str], tuple[float, float, float, float]]
 
-    def __init__(self, frame: int = 1) -> None:
+
+class Images:
+    """The images of one export, each read once, and what else nodes know of the scene: its frame, and the property of a
+    name of its view layer."""
+
+    def __init__(self, frame: int = 1, layer_property: LayerProperty | None = None) -> None:
         self.frame = frame
+        self.layer_property: LayerProperty = layer_property or (lambda name: (0.0, 0.0, 0.0, 0.0))
         self._textures: dict[tuple[object, ...], Texture] = {}
 
     def texture(self, image: Any) -> Texture:

@@ -159,6 +159,19 @@ def magic(nodes: Nodes, source: Source) -> Value:
     return op("average", color) if source.output.type == "VALUE" else color
 
 
+def gabor(nodes: Nodes, source: Source) -> Value:
+    inputs = _Inputs(nodes, source)
+    numbers = [
+        inputs.number(name, default) for name, default in (("Scale", 5.0), ("Frequency", 2.0), ("Anisotropy", 1.0))
+    ]
+    dimensions = source.node.gabor_type.lower()
+    if dimensions == "2d":
+        orientation: Triple = op("combine", inputs.number("Orientation 2D", 0.0), 0.0, 0.0)
+    else:
+        orientation = nodes.triple_named(source, "Orientation 3D", (1.0, 0.0, 0.0))
+    return op("gabor", inputs.place(), *numbers, orientation, modes=(dimensions, source.output.identifier.lower()))
+
+
 def brick(nodes: Nodes, source: Source) -> Value:
     node: Any = source.node
     inputs = _Inputs(nodes, source)

@@ -19,6 +19,9 @@ ACTIVE_COLOR = "color"
 GENERATED = "generated"
 TANGENT_PREFIX = "tangent:"
 ISLAND = "island"  # another number for each part of a mesh that hangs together
+# Of instances: properties of objects and instancers, and values of particles, by name.
+OBJECT_PREFIX, INSTANCER_PREFIX, PARTICLE_PREFIX = "object:", "instancer:", "particle:"
+INSTANCER_GENERATED, INSTANCER_UV = "instancer_generated", "instancer_uv"
 
 # From here on the strength of a normal map scales what it holds; before, it blends normals.
 STRENGTH_IN_TANGENTS = (4, 0)
@@ -60,7 +63,7 @@ def texture_coordinate(nodes: Nodes, source: Source) -> Value:
             return _in_space_of(source.node.object, geometry(nodes, "position"))
         return geometry(nodes, "position")
     if source.node.from_instancer and kind in ("Generated", "UV"):
-        nodes.not_translated(source, "coordinates from the instancer")
+        return attribute(nodes, INSTANCER_GENERATED if kind == "Generated" else INSTANCER_UV)
     if kind == "Generated":
         return attribute(nodes, GENERATED)
     if kind == "UV":
@@ -83,7 +86,7 @@ def _in_space_of(item: Any, point: Triple) -> Value:
 
 def uv_map(nodes: Nodes, source: Source) -> Value:
     if source.node.from_instancer:
-        nodes.not_translated(source, "coordinates from the instancer")
+        return attribute(nodes, INSTANCER_UV)
     name = source.node.uv_map
     return attribute(nodes, named(name) if name else ACTIVE_UV)
 
@@ -91,9 +94,23 @@ def uv_map(nodes: Nodes, source: Source) -> Value:
 def attribute_node(nodes: Nodes, source: Source) -> Value:
     node = source.node
     kind = getattr(node, "attribute_type", "GEOMETRY")
-    if kind != "GEOMETRY":
-        nodes.not_translated(source, f"an attribute of the {kind.lower()}")
-    return _attribute_output(nodes, source, named(node.attribute_name))
+    if kind == "VIEW_LAYER":
+        return _constant_output(source, nodes.layer_property(node.attribute_name))
+    prefixes = {"OBJECT": OBJECT_PREFIX, "INSTANCER": INSTANCER_PREFIX}
+    name = prefixes[kind] + node.attribute_name if kind in prefixes else named(node.attribute_name)
+    return _attribute_output(nodes, source, name)
+
+
+def _constant_output(source: Source, value: tuple[float, float, float, float]) -> Value:
+    kind = source.output.identifier
+    if kind == "Alpha":
+        return (value[3],)
+    return (sum(value[:3]) / 3.0,) if kind == "Fac" else value[:3]
+
+
+def particle_info(nodes: Nodes, source: Source) -> Value:
+    value = attribute(nodes, PARTICLE_PREFIX + source.output.identifier)
+    return value if source.output.type == "VECTOR" else op("separate", value, modes=("x",))
 
 
 def color_attribute(nodes: Nodes, source: Source) -> Value:
@@ -168,6 +185,8 @@ def camera_data(nodes: Nodes, source: Source) -> Value:
     return fact("view_z" if kind == "View Z Depth" else "view_distance")
 
 
+# What is exact wherever it is asked for; a light that is sampled, or a light vertex, does not know the rest.
+EXACT_IN_LIGHT_PATH = ("Is Camera Ray", "Is Shadow Ray")
 LIGHT_PATH = {
     "Is Camera Ray": "camera_ray",
     "Is Shadow Ray": "shadow_ray",
@@ -178,6 +197,7 @@ LIGHT_PATH = {
     "Is Transmission Ray": "transmission_ray",
     "Ray Length": "ray_length",
     "Ray Depth": "ray_depth",
+    "Is Volume Scatter Ray": "volume_scatter_ray",
 }
 # Counted by nobody: those of the camera's own rays.
 NO_DEPTH = ("Diffuse Depth", "Glossy Depth", "Transparent Depth", "Transmission Depth", "Portal Depth")
@@ -191,7 +211,14 @@ def light_path(nodes: Nodes, source: Source) -> Value:
     known = LIGHT_PATH.get(kind)
     if known is None:
         return nodes.not_translated(source, source.output.name)
+    if kind not in EXACT_IN_LIGHT_PATH:
+        nodes.notice(source.node, f"{kind}: light that is sampled is asked for as by a diffuse ray, of depth 1")
     return fact(known)
+
+
+def wireframe(nodes: Nodes, source: Source) -> Value:
+    kind = "pixels" if source.node.use_pixel_size else "world"
+    return op("wireframe", number(nodes.input(source, 0)), modes=(kind,))
 
 
 def normal_input(nodes: Nodes, source: Source) -> Triple:

@@ -151,4 +151,11 @@ inline void check_finite(double x, const std::string &what) {
         fail_argument(what + " is " + text(x) + "; allowed: finite numbers");
 }
 
+/// Of a domain that is not allowed.
+inline constexpr size_t kNoRows = ~size_t(0);
+
+/// The attributes of something that has so many rows of each domain, or kNoRows. Throws Error.
+std::vector<MeshAttribute> checked_attributes(size_t number, const glimmer_attribute *attributes,
+                                              const std::array<size_t, 4> &rows_of_domain, const std::string &what);
+
 } // namespace glimmer

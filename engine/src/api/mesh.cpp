@@ -4,6 +4,34 @@
 
 namespace glimmer {
 
+std::vector<MeshAttribute> checked_attributes(size_t number, const glimmer_attribute *attributes,
+                                              const std::array<size_t, 4> &rows_of_domain, const std::string &what) {
+    if (number > Program::kMostResources || (number && !attributes))
+        fail_argument(what + ": attributes are " + (attributes ? std::to_string(number) : "null") +
+                      "; allowed: up to " + std::to_string(Program::kMostResources));
+    std::vector<MeshAttribute> out;
+    for (size_t i = 0; i < number; ++i) {
+        const glimmer_attribute &a = attributes[i];
+        const std::string which = what + ": attribute " + (a.name ? std::string(a.name) : std::to_string(i));
+        if (!a.name || !a.values)
+            fail_argument(which + (a.name ? ": values are null" : " has no name"));
+        const auto domain = size_t(a.domain);
+        if (domain >= rows_of_domain.size() || rows_of_domain[domain] == kNoRows)
+            fail_argument(which + ": domain is " + std::to_string(int(a.domain)) +
+                          "; allowed: " + (rows_of_domain[0] == kNoRows ? "3, an instance's" : "0 to 2, a mesh's"));
+        check_range(a.components, 1, 4, which + ": components");
+        for (const MeshAttribute &known : out)
+            if (known.name == a.name)
+                fail_argument(which + " is given twice");
+        const size_t count = rows_of_domain[domain] * a.components;
+        for (size_t k = 0; k < count; ++k)
+            if (!std::isfinite(a.values[k]))
+                fail_argument(which + ": row " + std::to_string(k / a.components) + " is not finite");
+        out.push_back({a.name, a.domain, uint8_t(a.components), {a.values, a.values + count}});
+    }
+    return out;
+}
+
 namespace {
 
 constexpr size_t kMostElements = 0xffffffffu; // indices are 32 bits
@@ -18,29 +46,8 @@ struct Array {
 };
 
 void add_attributes(Mesh &mesh, const glimmer_mesh_desc &d, const std::string &what) {
-    if (d.attribute_count > Program::kMostResources || (d.attribute_count && !d.attributes))
-        fail_argument(what + ": attributes are " + (d.attributes ? std::to_string(d.attribute_count) : "null") +
-                      "; allowed: up to " + std::to_string(Program::kMostResources));
-    for (size_t i = 0; i < d.attribute_count; ++i) {
-        const glimmer_attribute &a = d.attributes[i];
-        const std::string which = what + ": attribute " + (a.name ? std::string(a.name) : std::to_string(i));
-        if (!a.name || !a.values)
-            fail_argument(which + (a.name ? ": values are null" : " has no name"));
-        if (uint32_t(a.domain) > GLIMMER_PER_TRIANGLE)
-            fail_argument(which + ": domain is " + std::to_string(int(a.domain)) + "; allowed: 0 to 2");
-        check_range(a.components, 1, 4, which + ": components");
-        for (const MeshAttribute &known : mesh.attributes)
-            if (known.name == a.name)
-                fail_argument(which + " is given twice");
-        const size_t rows = a.domain == GLIMMER_PER_VERTEX   ? d.vertex_count
-                            : a.domain == GLIMMER_PER_CORNER ? 3 * d.triangle_count
-                                                             : d.triangle_count;
-        const size_t count = rows * a.components;
-        for (size_t k = 0; k < count; ++k)
-            if (!std::isfinite(a.values[k]))
-                fail_argument(which + ": row " + std::to_string(k / a.components) + " is not finite");
-        mesh.attributes.push_back({a.name, a.domain, uint8_t(a.components), {a.values, a.values + count}});
-    }
+    mesh.attributes = checked_attributes(d.attribute_count, d.attributes,
+                                         {d.vertex_count, 3 * d.triangle_count, d.triangle_count, kNoRows}, what);
 }
 
 std::shared_ptr<Mesh> make_mesh(const glimmer_mesh_desc &d) {

@@ -166,4 +166,21 @@ glimmer_result glimmer_scene_bind_environment(glimmer_scene *scene, uint32_t pro
         s.sky = ParameterBinding{ParameterBinding::kNormal, program, output};
     });
 }
+
+glimmer_result glimmer_scene_bind_sun(glimmer_scene *scene, const double direction[3], double angle) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        if (!s.sky)
+            fail_argument("sun: the environment is bound to no program");
+        if (!direction)
+            fail_argument("sun: direction is null");
+        const Vec3d travels(direction[0], direction[1], direction[2]);
+        const double size = length(travels);
+        if (!(size > 0) || !std::isfinite(size))
+            fail_argument("sun: direction is 0 or not finite");
+        if (!(angle > 0 && angle <= 180))
+            fail_argument("sun: angle is " + std::to_string(angle) + "; allowed: above 0, up to 180");
+        s.sky_sun = SkySunDescription{travels, angle};
+    });
+}
 }

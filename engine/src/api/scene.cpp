@@ -163,6 +163,8 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         check_visible(d.visible, what);
         out.visible = RayMask(d.visible);
         out.holdout = d.holdout != 0;
+        out.attributes = checked_attributes(d.attribute_count, d.attributes,
+                                            {kNoRows, kNoRows, kNoRows, out.instances.size()}, what);
         s.objects.push_back(std::move(out));
     });
 }

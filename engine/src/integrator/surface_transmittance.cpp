@@ -13,7 +13,7 @@ Rgb surface_transmittance(const Scene &scene, Ray ray, RayKind kind, uint32_t ig
             break;
         Interaction surface = scene.interaction(ray, *hit);
         arena.clear();
-        const Shading shading = scene.materials.shade(surface, {-ray.direction, 0, ray.time}, arena);
+        const Shading shading = scene.materials.shade(surface, {-ray.direction, 0, ray.time, kFromShadow}, arena);
         if (is_black(shading.transparency))
             return {};
         left *= shading.transparency;

@@ -6,6 +6,7 @@
 #include "light/varying_emission.h"
 #include "sampling/distribution_2d.h"
 #include "sampling/warp.h"
+#include "shading/arrival.h"
 
 #include <array>
 #include <cmath>
@@ -37,9 +38,9 @@ inline Vec2f equirectangular(const Vec3f &d) {
 }
 
 /// Bilinear between texel centres; wraps around, and stops at the poles.
-inline Rgb radiance_at_infinity(const EnvironmentLight &light, const Vec3f &direction) {
+inline Rgb radiance_at_infinity(const EnvironmentLight &light, const Vec3f &direction, uint8_t ray) {
     if (light.varying)
-        return light.varying->of_sky(direction);
+        return light.varying->of_sky(direction, ray, ray & kCameraRay);
     if (light.pixels.empty())
         return light.color;
     const uint32_t width = light.width, height = light.height;
@@ -69,7 +70,7 @@ inline std::optional<LightSample> sample(const EnvironmentLight &light, const Ve
         pdf = s.pdf / (2 * kPi * kPi * sine);
     }
     const Vec3f direction = light.to_local[0] * local.x + light.to_local[1] * local.y + light.to_local[2] * local.z;
-    return LightSample{direction, kInfinity, radiance_at_infinity(light, direction), pdf, false};
+    return LightSample{direction, kInfinity, radiance_at_infinity(light, direction, kFromDiffuse.flags), pdf, false};
 }
 
 inline float pdf(const EnvironmentLight &light, const Vec3f &, const Vec3f &direction, const LightHit &) {

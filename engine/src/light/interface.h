@@ -5,7 +5,7 @@
 //   sample(light, x, u)                                    a direction from x towards the light
 //   pdf(light, x, direction, LightHit)                     its density; unless `delta`
 //   intersect(light, ray)                                  if `intersectable`
-//   radiance_at_infinity(light, direction)                 if `infinite`
+//   radiance_at_infinity(light, direction, RayFlags)       if `infinite`
 //   emit(light, inwards, u_position, u_direction, u_choice) unless `infinite`
 //   bound(light)                                           a sphere around it and its strength
 //

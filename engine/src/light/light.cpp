@@ -29,11 +29,11 @@ std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray) {
         light);
 }
 
-Rgb radiance_from_infinity(const Light &light, const Vec3f &direction) {
+Rgb radiance_from_infinity(const Light &light, const Vec3f &direction, uint8_t ray) {
     return std::visit(
         [&](const auto &l) {
             if constexpr (std::decay_t<decltype(l)>::traits.infinite)
-                return radiance_at_infinity(l, direction);
+                return radiance_at_infinity(l, direction, ray);
             else
                 return Rgb();
         },

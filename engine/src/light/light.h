@@ -35,7 +35,7 @@ concept LightKind = requires(const L &light, const Vec3f &v, Vec2f u, const Ligh
         { intersect(light, ray) } -> std::same_as<std::optional<LampHit>>;
     };
     requires !L::traits.infinite || requires {
-        { radiance_at_infinity(light, v) } -> std::same_as<Rgb>;
+        { radiance_at_infinity(light, v, uint8_t{}) } -> std::same_as<Rgb>;
     };
     requires L::traits.infinite || requires {
         { emit(light, false, u, u, 0.0f) } -> std::same_as<Emission>;
@@ -75,8 +75,8 @@ float light_pdf(const Light &light, const Vec3f &x, const Vec3f &direction, cons
 /// A see-through lamp on the ray, before its t_max. Nothing for other lights.
 std::optional<LampHit> intersect_lamp(const Light &light, const Ray &ray);
 
-/// What comes from infinitely far along the direction.
-Rgb radiance_from_infinity(const Light &light, const Vec3f &direction);
+/// What comes from infinitely far along the direction. ray: RayFlags, for skies that differ by them.
+Rgb radiance_from_infinity(const Light &light, const Vec3f &direction, uint8_t ray);
 
 LightBound bound_light(const Light &light);
 

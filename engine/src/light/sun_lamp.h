@@ -25,7 +25,7 @@ inline float pdf(const SunLamp &light, const Vec3f &, const Vec3f &direction, co
     return pdf_sun(light.disk, direction);
 }
 
-inline Rgb radiance_at_infinity(const SunLamp &light, const Vec3f &direction) {
+inline Rgb radiance_at_infinity(const SunLamp &light, const Vec3f &direction, uint8_t) {
     return pdf_sun(light.disk, direction) > 0 ? light.radiance : Rgb();
 }
 

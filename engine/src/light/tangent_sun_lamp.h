@@ -47,7 +47,7 @@ inline float pdf(const TangentSunLamp &light, const Vec3f &, const Vec3f &direct
     return float(light.density(cosine));
 }
 
-inline Rgb radiance_at_infinity(const TangentSunLamp &light, const Vec3f &direction) {
+inline Rgb radiance_at_infinity(const TangentSunLamp &light, const Vec3f &direction, uint8_t) {
     return light.strength * pdf(light, {}, direction, {});
 }
 

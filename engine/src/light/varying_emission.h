@@ -17,8 +17,9 @@ class VaryingEmission {
     virtual Rgb of_triangle(uint32_t instance, uint32_t primitive, Vec2f uv, const Vec3f &wo) const = 0;
     /// Of a sphere where its outward normal is `normal`.
     virtual Rgb of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const = 0;
-    /// Of the sky in a direction.
-    virtual Rgb of_sky(const Vec3f &direction) const = 0;
+    /// Of the sky in a direction, for a ray of these RayFlags; sun_disc: with the disc of its sun, which is else a
+    /// lamp.
+    virtual Rgb of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const = 0;
 };
 
 } // namespace glimmer

@@ -229,6 +229,26 @@ void SceneBuilder::add_lamps(LightList &lights) {
     }
 }
 
+/// A sky's sun as a lamp: so small a disc is not to be found by a picture of the sky.
+void SceneBuilder::add_sun_of_sky(LightList &lights) {
+    constexpr int kSide = 16; // of a grid on the disc
+    SunLamp sun;
+    sun.disk = SunDisk(description_.sky_sun->travels, description_.sky_sun->angle);
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            const Vec2f u{(float(i) + 0.5f) / kSide, (float(j) + 0.5f) / kSide};
+            const Vec3f direction = sample_sun(sun.disk, u).wi;
+            const Rgb with = shaders()->of_sky(direction, kFromDiffuse.flags, true),
+                      without = shaders()->of_sky(direction, kFromDiffuse.flags, false);
+            for (int c = 0; c < 3; ++c)
+                sun.radiance[c] += std::max(with[c] - without[c], 0.0f) / (kSide * kSide);
+        }
+    sun.irradiance = sun.radiance * float(sun.disk.projected_solid_angle());
+    if (!is_black(sun.irradiance))
+        // The camera sees it in the sky.
+        lights.add(sun, {.visible = RayMask(description_.environment_visible & ~mask_of(RayKind::camera))});
+}
+
 /// The program's radiance, which is sampled by a picture of it.
 void SceneBuilder::add_sky(LightList &lights) {
     EnvironmentLight light;
@@ -241,8 +261,8 @@ void SceneBuilder::add_sky(LightList &lights) {
         const float theta = kPi * (float(y) + 0.5f) / float(light.height), sine = std::sin(theta);
         for (uint32_t x = 0; x < light.width; ++x) {
             const float phi = 2 * kPi * ((float(x) + 0.5f) / float(light.width) - 0.5f);
-            light.pixels.push_back(
-                radiance_at_infinity(light, {sine * std::sin(phi), sine * std::cos(phi), std::cos(theta)}));
+            const Vec3f direction{sine * std::sin(phi), sine * std::cos(phi), std::cos(theta)};
+            light.pixels.push_back(radiance_at_infinity(light, direction, kFromDiffuse.flags));
         }
     }
     light.mean = distribute(light);
@@ -255,6 +275,8 @@ void SceneBuilder::add_sky(LightList &lights) {
 
 void SceneBuilder::add_environment(LightList &lights) {
     if (description_.sky) {
+        if (description_.sky_sun)
+            add_sun_of_sky(lights);
         add_sky(lights);
         return;
     }

@@ -7,14 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace glimmer {
 
 namespace {
 
-/// The scene's number of every name of an attribute that programs ask for.
-using Names = std::map<std::string, uint32_t>;
+using Names = AttributeNumbers;
 
 Names number_attributes(std::span<const std::shared_ptr<Program>> programs) {
     Names names;
@@ -27,9 +25,9 @@ Names number_attributes(std::span<const std::shared_ptr<Program>> programs) {
     return names;
 }
 
-std::vector<AttributeView> views_of(const Mesh &mesh, const Names &names) {
+std::vector<AttributeView> views_of(std::span<const MeshAttribute> attributes, const Names &names) {
     std::vector<AttributeView> views(names.size());
-    for (const MeshAttribute &a : mesh.attributes)
+    for (const MeshAttribute &a : attributes)
         if (const auto found = names.find(a.name); found != names.end())
             views[found->second] = {a.values.data(), a.components, AttributeDomain(a.domain)};
     return views;
@@ -67,6 +65,23 @@ MaterialBounds SceneBuilder::bounds_of_varying(uint32_t material, float &interio
     bounds.transparent = !is_black(flat.transparency);
     interior = interior_ior(flat.lobes);
     return bounds;
+}
+
+/// What objects know of their instances stands in the place of what their meshes know.
+void SceneBuilder::add_attributes_of_instances(ShaderScene &shaders, const AttributeNumbers &names) const {
+    std::vector<const ObjectDescription *> sources(shaders.attributes.size()); // absent objects have no number
+    for (size_t i = 0; i < object_places_.size(); ++i)
+        sources[scene_.accel->instances()[i].object] = &description_.objects[object_places_[i].object];
+    shaders.of_instances.resize(sources.size());
+    for (size_t object = 0; object < sources.size(); ++object) {
+        if (!sources[object])
+            continue;
+        shaders.of_instances[object] = sources[object]->attributes;
+        const std::vector<AttributeView> views = views_of(shaders.of_instances[object], names);
+        for (size_t id = 0; id < views.size(); ++id)
+            if (views[id].values)
+                shaders.attributes[object][id] = views[id];
+    }
 }
 
 void SceneBuilder::build_shaders() {
@@ -112,9 +127,11 @@ void SceneBuilder::build_shaders() {
         frame.color = object.color;
         frame.alpha = object.opacity;
         frame.random = object.randoms.size() > 1 ? object.randoms[place.instance] : object.randoms[0];
+        shaders->instance_numbers.push_back(uint32_t(place.instance));
     }
     for (const auto &mesh : scene_.meshes_)
-        shaders->attributes.push_back(views_of(*mesh, names));
+        shaders->attributes.push_back(views_of(mesh->attributes, names));
+    add_attributes_of_instances(*shaders, names);
     for (uint32_t i : varying) {
         shaders->add(i);
         float interior = 0;

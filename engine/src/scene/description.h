@@ -36,6 +36,7 @@ struct ObjectDescription {
     bool moves() const { return !motion.empty(); }
     RayMask visible = kEveryRay;
     bool holdout = false;
+    std::vector<MeshAttribute> attributes; ///< a row an instance
 };
 
 struct SpheresDescription {
@@ -52,6 +53,12 @@ struct EnvironmentDescription {
     Rgb color;
     std::shared_ptr<const Image> image;
     Linear to_world;
+};
+
+/// The sun of a sky that a program gives.
+struct SkySunDescription {
+    Vec3d travels;    ///< the light's direction
+    double angle = 0; ///< full, in degrees
 };
 
 struct MediumDescription {
@@ -73,6 +80,7 @@ struct SceneDescription {
     std::optional<EnvironmentDescription> environment;
     std::optional<ParameterBinding> sky; ///< the program that gives the environment's radiance
     RayMask environment_visible = kEveryRay;
+    std::optional<SkySunDescription> sky_sun;
     std::optional<MediumDescription> medium;
     std::optional<glimmer_camera_desc> camera;
     std::vector<Affine> camera_motion; ///< at moments evenly spaced over the shutter, in place of to_world

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The interpreter of shader programs: one step an instruction, no jumps.
 #include "shading/nodes/color.h"
+#include "shading/nodes/gabor.h"
 #include "shading/nodes/image.h"
 #include "shading/nodes/normal.h"
 #include "shading/nodes/pattern.h"
@@ -225,6 +226,9 @@ class Evaluation {
             return brick(vector(i, 0), {number(i, 1), number(i, 2), number(i, 3), number(i, 4), number(i, 5), offset.x,
                                         squash.x, whole(offset.y), whole(squash.y)});
         }
+        case Op::gabor:
+            return gray(gabor(GaborOutput(i.mode[1]), i.mode[0] != 0, vector(i, 0), number(i, 1), number(i, 2),
+                              number(i, 3), vector(i, 4)));
         default: { // image, image_alpha
             const ImageMode mode{ProjectionKind(i.mode[0]), Interpolation(i.mode[1]), Extension(i.mode[2]),
                                  i.mode[3] != 0};
@@ -304,6 +308,8 @@ class Evaluation {
                 g_.dpdx, g_.dpdy);
         case Op::normal_map:
             return normal_map(i);
+        case Op::wireframe:
+            return gray(is_on_edge(number(i, 0), i.mode[0] != 0) ? 1.0f : 0.0f);
         default: // tangent
             return safe_normalize(cross(g_.normal, safe_normalize(cross(world_normal(vector(i, 0)), g_.normal))));
         }
@@ -393,9 +399,11 @@ class Evaluation {
             singular_ray,
             reflection_ray,
             transmission_ray,
-            ray_length
+            ray_length,
+            ray_depth,
+            volume_scatter_ray
         };
-        const auto flag = [&](uint32_t bit) { return g_.ray & bit ? 1.0f : 0.0f; };
+        const auto flag = [&](uint32_t bit) { return g_.arrival.flags & bit ? 1.0f : 0.0f; };
         switch (which) {
         case backfacing:
             return g_.backfacing ? 1.0f : 0.0f;
@@ -426,9 +434,13 @@ class Evaluation {
         case transmission_ray:
             return flag(kTransmissionRay);
         case ray_length:
-            return g_.ray_length;
+            return g_.arrival.length;
+        case ray_depth:
+            return g_.arrival.depth;
+        case volume_scatter_ray:
+            return flag(kVolumeScatterRay);
         default:
-            return g_.ray_depth;
+            return g_.sun_disc ? 1.0f : 0.0f;
         }
     }
 
@@ -439,9 +451,44 @@ class Evaluation {
         return {g_.u + width * d.x, g_.v + width * d.y};
     }
 
+    /// Within half a width of an edge of the triangle; width: of the world, or of the picture's pixels.
+    bool is_on_edge(float width, bool in_pixels) const {
+        if (!g_.vertices || !g_.object)
+            return false;
+        if (in_pixels) {
+            const auto across = [&](const Vec3f &d) { return length(d - g_.incoming * dot(d, g_.incoming)); };
+            width *= 0.5f * (across(g_.dpdx) + across(g_.dpdy));
+        }
+        std::array<Vec3f, 3> corners;
+        for (size_t k = 0; k < 3; ++k)
+            corners[k] = g_.vertex_positions[(*g_.vertices)[k]];
+        const Vec3f p = corners[0] * (1 - g_.u - g_.v) + corners[1] * g_.u + corners[2] * g_.v;
+        for (size_t k = 0; k < 3; ++k) {
+            const Vec3f along = times(g_.object->to_world, corners[(k + 1) % 3] - corners[k]);
+            const Vec3f way = times(g_.object->to_world, p - corners[k]);
+            if (length_squared(cross(along, way)) < length_squared(along) * (0.25f * width * width))
+                return true;
+        }
+        return false;
+    }
+
     const AttributeView *view_of(const Instruction &i) const {
         const uint32_t id = program_.attribute_ids_.empty() ? i.resource : program_.attribute_ids_[i.resource];
         return id < g_.attributes.size() && g_.attributes[id].values && g_.vertices ? &g_.attributes[id] : nullptr;
+    }
+
+    size_t row_of(const AttributeView &view, size_t corner) const {
+        switch (view.domain) {
+        case AttributeDomain::corner:
+            return 3 * size_t(g_.triangle) + corner;
+        case AttributeDomain::vertex:
+            return (*g_.vertices)[corner];
+        case AttributeDomain::face:
+            return g_.triangle;
+        case AttributeDomain::instance:
+            break;
+        }
+        return g_.instance;
     }
 
     std::array<float, 4> attribute(const Instruction &i) const {
@@ -452,10 +499,7 @@ class Evaluation {
         const Vec2f b = barycentrics(i.mode[0], number(i, 0));
         const float weights[] = {1 - b.x - b.y, b.x, b.y};
         for (size_t k = 0; k < 3; ++k) {
-            const size_t row = view->domain == AttributeDomain::corner   ? 3 * size_t(g_.triangle) + k
-                               : view->domain == AttributeDomain::vertex ? (*g_.vertices)[k]
-                                                                         : g_.triangle;
-            const float *values = view->values + row * view->components;
+            const float *values = view->values + row_of(*view, k) * view->components;
             for (size_t c = 0; c < view->components; ++c)
                 out[c] += weights[k] * values[c];
         }
@@ -512,10 +556,7 @@ class Evaluation {
         for (size_t c = 0; c < view.components; ++c) {
             out[c] = 0;
             for (size_t k = 0; k < 3; ++k) {
-                const size_t row = view.domain == AttributeDomain::corner   ? 3 * size_t(g_.triangle) + k
-                                   : view.domain == AttributeDomain::vertex ? (*g_.vertices)[k]
-                                                                            : g_.triangle;
-                out[c] += weights[k] * view.values[row * view.components + c];
+                out[c] += weights[k] * view.values[row_of(view, k) * view.components + c];
             }
         }
         return out;

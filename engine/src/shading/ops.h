@@ -55,6 +55,7 @@ enum class Op : uint16_t {
     gradient,
     magic,
     brick,
+    gabor,
     image,
     image_alpha,
     // The surface
@@ -67,6 +68,7 @@ enum class Op : uint16_t {
     bump,
     normal_map,
     tangent,
+    wireframe,
     count
 };
 
@@ -131,6 +133,7 @@ inline constexpr std::array<glimmer_op_info_t, size_t(Op::count)> kOps{{
     {"gradient", "linear quadratic easing diagonal spherical quadratic_sphere radial", "v", 'n', '-'},
     {"magic", "0 1 2 3 4 5 6 7 8 9 10", "vnn", 'v', '-'},
     {"brick", "", "vnnnnnvv", 'v', '-'},
+    {"gabor", "2d 3d|value phase intensity", "vnnnv", 'n', '-'},
     {"image",
      "flat box sphere tube equirectangular mirror_ball|linear closest cubic|repeat extend clip mirror|as_is straight",
      "vn", 'v', 'i'},
@@ -143,7 +146,8 @@ inline constexpr std::array<glimmer_op_info_t, size_t(Op::count)> kOps{{
      "n", 'v', '-'},
     {"geometry_number",
      "backfacing object_alpha object_index material_index object_random view_z view_distance camera_ray shadow_ray "
-     "diffuse_ray glossy_ray singular_ray reflection_ray transmission_ray ray_length ray_depth",
+     "diffuse_ray glossy_ray singular_ray reflection_ray transmission_ray ray_length ray_depth volume_scatter_ray "
+     "sun_disc",
      "", 'n', '-'},
     {"attribute", "center dx dy", "n", 'v', 'a'},
     {"attribute_alpha", "center dx dy", "n", 'n', 'a'},
@@ -152,6 +156,7 @@ inline constexpr std::array<glimmer_op_info_t, size_t(Op::count)> kOps{{
     {"bump", "", "nnnnnvn", 'v', '-'},
     {"normal_map", "tangent object world blender_object blender_world", "nv", 'v', 'a'},
     {"tangent", "", "v", 'v', '-'},
+    {"wireframe", "world pixels", "n", 'n', '-'},
 }};
 
 } // namespace glimmer

@@ -75,6 +75,7 @@ bool asks_the_place(Op op) {
     case Op::bump:
     case Op::normal_map:
     case Op::tangent:
+    case Op::wireframe:
     case Op::vector_transform:
         return true;
     default:

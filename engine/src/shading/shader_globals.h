@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/vec.h"
+#include "shading/arrival.h"
 
 #include <array>
 #include <cstdint>
@@ -10,11 +11,11 @@
 
 namespace glimmer {
 
-enum class AttributeDomain : uint8_t { vertex, corner, face };
+enum class AttributeDomain : uint8_t { vertex, corner, face, instance };
 
-/// An attribute of a mesh: rows of one to four floats.
+/// An attribute of a mesh or of its instances: rows of one to four floats.
 struct AttributeView {
-    const float *values = nullptr; ///< null: the mesh has none of this name, and reads give 0
+    const float *values = nullptr; ///< null: there is none of this name, and reads give 0
     uint8_t components = 3;
     AttributeDomain domain = AttributeDomain::corner;
 };
@@ -37,17 +38,6 @@ struct CameraFrame {
     Vec2f shift;
 };
 
-/// How a place was reached.
-enum RayFlags : uint32_t {
-    kCameraRay = 1,
-    kShadowRay = 2,
-    kDiffuseRay = 4,
-    kGlossyRay = 8,
-    kSingularRay = 16,
-    kReflectionRay = 32,
-    kTransmissionRay = 64
-};
-
 struct ShaderGlobals {
     Vec3f position;            ///< in the world
     Vec3f normal, true_normal; ///< unit, on the viewer's side
@@ -61,11 +51,13 @@ struct ShaderGlobals {
     const std::array<uint32_t, 3> *vertices = nullptr; ///< of the triangle; null: no mesh
     std::span<const AttributeView> attributes;         ///< by the scene's numbers of names
     const Vec3f *vertex_normals = nullptr;             ///< null: flat
+    const Vec3f *vertex_positions = nullptr;           ///< in the object's space, about some origin
+    uint32_t instance = 0;                             ///< of its object
     const ObjectFrame *object = nullptr;               ///< null: a sky
     const CameraFrame *camera = nullptr;
     float material_index = 0;
-    uint32_t ray = kCameraRay;
-    float ray_length = 0, ray_depth = 0;
+    Arrival arrival;
+    bool sun_disc = false; ///< of a sky: its sun is asked for, too
 };
 
 } // namespace glimmer

@@ -120,6 +120,7 @@ void ShaderScene::set_place(Place &place, const Interaction &surface, const View
     g.normal = g.backfacing ? -surface.shading_normal : surface.shading_normal;
     g.true_normal = g.backfacing ? -surface.geometric_normal : surface.geometric_normal;
     g.incoming = view.wo;
+    g.arrival = view.arrival;
     g.camera = &camera;
     g.u = surface.u;
     g.v = surface.v;
@@ -148,6 +149,8 @@ void ShaderScene::set_place(Place &place, const Interaction &surface, const View
     }
     g.triangle = surface.primitive;
     g.vertices = &mesh.triangles[surface.primitive];
+    g.vertex_positions = mesh.vertices.data();
+    g.instance = instance_numbers[surface.instance];
     g.vertex_normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
     if (const uint32_t object = geometry->instances()[surface.instance].object; object < attributes.size())
         g.attributes = attributes[object];
@@ -234,7 +237,7 @@ Interaction ShaderScene::on_triangle(uint32_t instance, uint32_t primitive, Vec2
 
 Rgb ShaderScene::of_triangle(uint32_t instance, uint32_t primitive, Vec2f uv, const Vec3f &wo) const {
     const Interaction at = on_triangle(instance, primitive, uv);
-    return emission(varying_of[at.material], at, {wo});
+    return emission(varying_of[at.material], at, {.wo = wo, .arrival = kFromDiffuse});
 }
 
 Rgb ShaderScene::of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const {
@@ -245,15 +248,17 @@ Rgb ShaderScene::of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo
     at.material = sphere_materials[sphere];
     at.body = uint32_t(geometry->instances().size()) + sphere;
     at.primitive = sphere;
-    return emission(varying_of[at.material], at, {wo});
+    return emission(varying_of[at.material], at, {.wo = wo, .arrival = kFromDiffuse});
 }
 
-Rgb ShaderScene::of_sky(const Vec3f &direction) const {
+Rgb ShaderScene::of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const {
     static thread_local std::vector<Vec3f> values;
     ShaderGlobals g;
     g.position = g.object_position = direction;
     g.normal = g.true_normal = g.incoming = -direction;
     g.camera = &camera;
+    g.arrival = {ray, ray & kCameraRay ? 0.0f : 1.0f, 0};
+    g.sun_disc = sun_disc;
     values.resize(programs[sky->program]->output_count());
     programs[sky->program]->evaluate(g, values.data());
     const Vec3f &v = values[sky->output];
@@ -269,7 +274,7 @@ Rgb ShaderScene::mean_of_triangle(uint32_t instance, uint32_t primitive) const {
         for (int j = 0; i + j < kSide; ++j) {
             const Vec2f uv{(float(i) + 1.0f / 3) / kSide, (float(j) + 1.0f / 3) / kSide};
             const Interaction at = on_triangle(instance, primitive, uv);
-            sum += emission(varying_of[at.material], at, {at.geometric_normal});
+            sum += emission(varying_of[at.material], at, {.wo = at.geometric_normal, .arrival = kFromDiffuse});
         }
     return sum * (2.0f / (kSide * (kSide + 1)));
 }

@@ -10,6 +10,7 @@
 #include "shading/shading.h"
 #include "shading/shading_point.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -30,6 +31,8 @@ bool may_shine(const MaterialDescription &node, std::span<const ParameterBinding
 
 /// `rest`: what has no place.
 ObjectFrame frame_of(const Instance &instance, const Vec3d &origin, ObjectFrame rest = {});
+/// The scene's number of every name of an attribute that programs ask for.
+using AttributeNumbers = std::map<std::string, uint32_t>;
 
 class ShaderScene : public VaryingEmission {
   public:
@@ -41,12 +44,14 @@ class ShaderScene : public VaryingEmission {
     Vec3d origin;
     const Accel *geometry = nullptr;
     CameraFrame camera;
-    float pixel_width = 0;                               ///< of a pixel at depth 1, or anywhere
-    std::vector<ObjectFrame> frames;                     ///< by instance
-    std::vector<std::vector<AttributeView>> attributes;  ///< by object, by number of a name
-    std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot
-    std::vector<uint32_t> sphere_materials;              ///< by sphere
-    std::optional<ParameterBinding> sky;                 ///< the radiance of the environment
+    float pixel_width = 0;                                ///< of a pixel at depth 1, or anywhere
+    std::vector<ObjectFrame> frames;                      ///< by instance
+    std::vector<std::vector<AttributeView>> attributes;   ///< by object, by number of a name
+    std::vector<uint32_t> instance_numbers;               ///< by instance: which of its object's it is
+    std::vector<std::vector<MeshAttribute>> of_instances; ///< by object: what its instances have
+    std::vector<std::vector<uint32_t>> object_materials;  ///< by object: the material of each slot
+    std::vector<uint32_t> sphere_materials;               ///< by sphere
+    std::optional<ParameterBinding> sky;                  ///< the radiance of the environment
 
     /// Prepares a material of the scene that varies. Throws Error where it has too many parts.
     void add(uint32_t material);
@@ -58,7 +63,7 @@ class ShaderScene : public VaryingEmission {
 
     Rgb of_triangle(uint32_t instance, uint32_t primitive, Vec2f uv, const Vec3f &wo) const override;
     Rgb of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const override;
-    Rgb of_sky(const Vec3f &direction) const override;
+    Rgb of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const override;
 
     /// The mean radiance of a triangle or sphere over a few places, seen along its normal.
     Rgb mean_of_triangle(uint32_t instance, uint32_t primitive) const;

@@ -5,6 +5,7 @@
 
 #include "geometry/accel.h"
 #include "math/vec.h"
+#include "shading/arrival.h"
 
 #include <cmath>
 #include <cstdint>
@@ -36,6 +37,7 @@ struct View {
     Vec3f wo;              ///< unit, away from the surface: where its light goes
     float footprint = 0;   ///< lengths: the width of what one sample stands for; 0: a point
     ShutterTime time = {}; ///< the moment: where a moving object stands
+    Arrival arrival{};     ///< of the ray that looks
 };
 
 /// What the node of a shader program may ask. Positions are in the scene's coordinates, about its origin near the

@@ -120,6 +120,7 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
     ++next.depth;
     ++next.scatter;
     next.specular_depth = 0;
+    next.ray_flags = kVolumeScatterRay;
     if (state.seen_directly())
         next.path_class = PathClass::medium;
     ++next.depth_since_first;

@@ -247,8 +247,11 @@ class PathSample {
     /// nothing else is wanted of it. Else the state stands for what the surface scatters.
     bool passes_through(State &state, const Interaction &surface, const Shading &shading, float distance, bool certain);
     /// The closures and the emission of a surface along a ray; they last until the next segment is followed.
-    Shading shade(Interaction &surface, const Ray &ray) {
-        return scene().materials.shade(surface, {-ray.direction, 0, ray.time}, arena_);
+    Shading shade(Interaction &surface, const Ray &ray, const Arrival &arrival = {}) {
+        return scene().materials.shade(surface, {-ray.direction, 0, ray.time, arrival}, arena_);
+    }
+    static Arrival arrival(const State &state, float distance) {
+        return {state.ray_flags, float(state.depth), state.passed_length() + distance};
     }
     void note_first_surface(const Interaction &surface, ShutterTime time);
     /// The part of a BSDF (bounded_fraction.h) that is still to be scattered: its bounded fraction where splats bring
@@ -271,6 +274,14 @@ class PathSample {
                           const OrientedSurface &oriented_surface, uint32_t branches, Lobes lobes);
     /// Turns the path into one that leaves a rough lobe along wi, sampled with density `pdf` per solid angle.
     void leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi, float pdf);
+    /// What programs know of a ray that was sampled from these closures.
+    static uint8_t ray_flags(const Bsdf &bsdf, const BsdfSample &s) {
+        if (s.transmitted)
+            return uint8_t(kTransmissionRay | (s.specular ? kSingularRay : 0));
+        if (s.specular)
+            return kReflectionRay | kGlossyRay | kSingularRay;
+        return kReflectionRay | (has_diffuse(bsdf) ? kDiffuseRay : kGlossyRay);
+    }
     /// Turns the path into one that leaves a mirror or a smooth dielectric along wi.
     void leave_specular(State &state, const Interaction &surface, const Vec3f &wi);
 

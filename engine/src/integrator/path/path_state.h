@@ -7,6 +7,7 @@
 #include "integrator/path/kernel_features.h"
 #include "math/vec.h"
 #include "medium/interior_stack.h"
+#include "shading/arrival.h"
 
 #include <type_traits>
 
@@ -87,6 +88,7 @@ struct PathState {
     /// out, so the next vertex counts no farther from there than this, in the medium and on a surface.
     float medium_compensation_radius = kInfinity, surface_compensation_radius = kInfinity;
     bool compensates() const { return F.medium && medium_compensation_radius < kInfinity; }
+    uint8_t ray_flags = kCameraRay; ///< RayFlags: what shader programs know of the segment
     bool splatted = false; ///< a compensation ray for which splats bring the part that no light vertex stands for
 
     /// The camera's own ray up to the first surface: what its numbers are stratified for.

@@ -29,7 +29,7 @@ void PathSample<F>::follow(State &state) {
         surface = scene().interaction(state.ray, *hit);
         if constexpr (F.surfaces)
             arena_.clear();
-        shading = shade(*surface, state.ray);
+        shading = shade(*surface, state.ray, arrival(state, hit->t));
         const bool is_behind = F.transparency && (result_.hit || is_mostly_seen_through(shading));
         if (state.seen_directly() && state.depth == 0 && !is_behind)
             note_first_surface(*surface, state.ray.time);
@@ -144,7 +144,7 @@ void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
     for (uint32_t light : scene().lights.infinite()) {
         if (!sees_light(state, light))
             continue;
-        const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction);
+        const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction, state.ray_flags);
         if (!is_black(radiance))
             add_emitted(state, radiance * emission_mis_weight(state, light, {kInfinity}), kInfinity, medium);
     }

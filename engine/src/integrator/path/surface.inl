@@ -89,6 +89,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
             cross_boundary(next, *oriented_surface);
         if (!survives(next, surface.position, kRouletteScaleAtSurfaces) || (s->specular && !survives_specular(next)))
             continue;
+        next.ray_flags = ray_flags(bsdf, *s);
         next.emission_mode = lit_by_ris && !s->specular ? EmissionMode::skip : EmissionMode::mis;
         set_kind(next, kind_of(*s));
         if (s->specular)
@@ -195,6 +196,7 @@ void PathSample<F>::light_surface(const State &state, const Interaction &surface
     State next = state;
     next.emission_mode = EmissionMode::only;
     next.beta *= s->weight;
+    next.ray_flags = ray_flags(bsdf, *s);
     if (s->transmitted)
         cross_boundary(next, *oriented_surface);
     set_kind(next, kind_of(*s));

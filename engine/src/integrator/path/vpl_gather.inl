@@ -63,6 +63,7 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
     ++state.depth;
     ++state.scatter;
     state.specular_depth = 0;
+    state.ray_flags = kVolumeScatterRay;
     ++state.depth_since_first;
     return true;
 }
@@ -102,7 +103,7 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
             return;
         Interaction surface = scene().interaction(state.ray, *hit);
         arena_.clear();
-        const Shading shading = shade(surface, state.ray);
+        const Shading shading = shade(surface, state.ray, arrival(state, hit->t));
         if (passes_through(state, surface, shading, hit->t, false)) {
             state.medium_compensation_radius = medium_compensation_radius - hit->t;
             state.surface_compensation_radius = surface_compensation_radius - hit->t;

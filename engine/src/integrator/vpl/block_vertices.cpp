@@ -155,7 +155,7 @@ void BlockVertices::pick_surface(const std::vector<SurfaceVertex> &vertices, con
 
 Bsdf BlockVertices::shade(const SurfaceVertex &v) {
     Interaction surface = scene_.interaction({v.position, -v.incoming, time_}, {0, v.instance, v.primitive, v.u, v.v});
-    Bsdf bsdf = scene_.materials.shade(surface, {v.incoming, 0, time_}, closures_).bsdf;
+    Bsdf bsdf = scene_.materials.shade(surface, {v.incoming, 0, time_, kFromDiffuse}, closures_).bsdf;
     bsdf.eta = v.eta;
     return bsdf;
 }

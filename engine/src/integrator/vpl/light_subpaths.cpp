@@ -99,9 +99,8 @@ class LightSubpath {
                 return;
             Interaction surface = scene_.interaction(segment.ray, *hit);
             splat_arena_.clear();
-            const Rgb through =
-                scene_.materials.shade(surface, {-segment.ray.direction, 0, segment.ray.time}, splat_arena_)
-                    .transparency;
+            const View view{-segment.ray.direction, 0, segment.ray.time, kFromDiffuse};
+            const Rgb through = scene_.materials.shade(surface, view, splat_arena_).transparency;
             if (is_black(through))
                 return;
             segment.power *= through * scene_.medium->transmittance(segment.ray, hit->t);
@@ -152,7 +151,8 @@ class LightSubpath {
     void meet_surface(Branch &path, const Hit &hit, float t_max) {
         Interaction surface = scene_.interaction(path.ray, hit);
         arena_.clear();
-        const Shading shading = scene_.materials.shade(surface, {-path.ray.direction, 0, path.ray.time}, arena_);
+        const Shading shading =
+            scene_.materials.shade(surface, {-path.ray.direction, 0, path.ray.time, kFromDiffuse}, arena_);
         if (const float through = max_component(shading.transparency); through > 0) {
             const float share = through / (through + max_component(albedo(shading.bsdf)));
             if (share == 1 || sampler_.next_1d() < share) {

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What shader programs ask of each instance by name: properties of its object or instancer, its particle, and where it
+stands on its instancer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..scene.description import Attribute
+from .instance import Placed, Record, hash_pair
+from .translate.surface import INSTANCER_GENERATED, INSTANCER_PREFIX, INSTANCER_UV, OBJECT_PREFIX, PARTICLE_PREFIX
+
+if TYPE_CHECKING:
+    import bpy
+
+Rgba = tuple[float, float, float, float]
+
+
+def instance_attributes(placed: Placed, names: frozenset[str]) -> tuple[Attribute, ...]:
+    """Those of `names` that instances have, a row for each matrix."""
+    found = []
+    for name in sorted(names):
+        rows = _rows(placed, name)
+        if rows is not None:
+            found.append(Attribute(name, "instance", np.nan_to_num(np.array(rows, np.float32))))
+    return tuple(found)
+
+
+def _rows(placed: Placed, name: str) -> list[tuple[float, ...]] | None:
+    count = len(placed.all_matrices())
+    records: list[Record | None] = [*placed.records] or [None] * count
+    if name.startswith(OBJECT_PREFIX):
+        return [property_of((placed.item, placed.item.data), name[len(OBJECT_PREFIX) :])] * count
+    if name.startswith(INSTANCER_PREFIX):
+        own = name[len(INSTANCER_PREFIX) :]
+        return [
+            property_of((*(() if record is None else record.instancers), placed.item, placed.item.data), own)
+            for record in records
+        ]
+    if name.startswith(PARTICLE_PREFIX):
+        return [particle_value(record, name[len(PARTICLE_PREFIX) :]) for record in records]
+    if name == INSTANCER_GENERATED:
+        return [(0.0,) * 3 if r is None else tuple(0.5 * v - 0.5 for v in r.generated) for r in records]
+    if name == INSTANCER_UV:
+        return [(0.0,) * 3 if r is None else (*r.uv, 0.0) for r in records]
+    return None
+
+
+def particle_value(record: Record | None, what: str) -> tuple[float, ...]:
+    """By the name of a Particle Info node's output; 0 where there is no particle."""
+    index = 0 if record is None else record.particle_index
+    if what == "Index":
+        return (float(index),)
+    if what == "Random":
+        return (hash_pair(index, 0) / 0xFFFFFFFF,)
+    if record is not None and what in record.particle:
+        return record.particle[what]
+    return (0.0,) * 3 if what in ("Location", "Velocity", "Angular Velocity") else (0.0,)
+
+
+def property_of(owners: tuple[Any, ...], name: str) -> Rgba:
+    """The first of the owners' custom properties, or values by their path, of this name; black and clear for none."""
+    for owner in owners:
+        if owner is None:
+            continue
+        found = _rgba(_property(owner, name))
+        if found is not None:
+            return found
+    return (0.0, 0.0, 0.0, 0.0)
+
+
+def _property(owner: bpy.types.ID, name: str) -> Any:
+    if name in owner:
+        return owner[name]
+    try:
+        return owner.path_resolve(name)
+    except (ValueError, TypeError):
+        return None
+
+
+def _rgba(value: Any) -> Rgba | None:
+    if isinstance(value, (bool, int, float)):
+        return float(value), float(value), float(value), 1.0
+    try:
+        numbers = [float(v) for v in value]
+    except (TypeError, ValueError):
+        return None
+    if not 1 <= len(numbers) <= 4:
+        return None
+    alpha = numbers[3] if len(numbers) == 4 else 1.0
+    red, green, blue = [*numbers[:3], 0.0, 0.0][:3]
+    return red, green, blue, alpha
