@@ -86,9 +86,7 @@ def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> J
     # A preview's depsgraph is not the scene's.
     set_frame = None if engine.is_preview else engine.frame_set
     path = export_request.pop("path", None) if not engine.is_preview else None
-    exported = export_scene(
-        depsgraph, camera_view, bpy.app.version, BULK_READERS, constants_only=path is not None, set_frame=set_frame
-    )
+    exported = export_scene(depsgraph, camera_view, bpy.app.version, BULK_READERS, set_frame=set_frame)
     if path is not None:
         return ExportJob(exported, path)
     return RenderJob(exported, enabled, depsgraph.view_layer_eval.name)

@@ -18,6 +18,7 @@ from . import description as d
 from .exr import write_exr
 from .ply import write_ply
 from .problems import GlimmerError
+from .program import INPUTS, RESOURCES, Instruction, Output, Program, Texture
 
 Json = dict[str, Any]
 
@@ -45,6 +46,9 @@ class _Writer:
         self._mesh_names: dict[bytes, str] = {}
         self._material_names: list[str] = []
         self._meshes: Json = {}
+        self._programs: Json = {}
+        self._textures: Json = {}
+        self._texture_names: dict[bytes, str] = {}
         self._arrays = 0
 
     def document(self, scene: d.SceneDescription) -> Json:
@@ -54,7 +58,9 @@ class _Writer:
             "glimmer": 1,
             "film": _film(scene.film),
             "camera": _camera(scene.camera),
-            "materials": {name: _material(item.material) for name, item in named},
+            "textures": self._textures,
+            "programs": self._programs,
+            "materials": {name: self._material(name, item) for name, item in named},
             "meshes": self._meshes,
             "objects": [self._object(item) for item in scene.objects],
             "spheres": [self._spheres(item) for item in scene.spheres],
@@ -83,7 +89,59 @@ class _Writer:
             self._meshes[name] = {"file": f"{self._folder.name}/{name}.ply"}
             if mesh.slots is not None:
                 self._meshes[name]["slots"] = self._save("slots", mesh.slots)
+            if mesh.attributes:
+                self._meshes[name]["attributes"] = {
+                    item.name: {"domain": item.domain, "values": self._save("attribute", item.values)}
+                    for item in mesh.attributes
+                }
         return self._mesh_names[mesh.digest]
+
+    def _material(self, name: str, item: d.NamedMaterial) -> Json:
+        program = None if item.program is None else self._program(f"material {name}", item.program)
+        result = _material(item.material, program)
+        if item.normal is not None:
+            result["normal"] = _parameter(item.normal, program)
+        return result
+
+    def _program(self, name: str, program: Program) -> str:
+        """Its name, which no other has."""
+        self._programs[name] = {
+            "steps": [self._step(program, item) for item in program.instructions],
+            "outputs": [f"r{number}" for number in program.outputs],
+        }
+        return name
+
+    def _step(self, program: Program, item: Instruction) -> Json:
+        result: Json = {"op": item.op}
+        if item.modes:
+            result["modes"] = list(item.modes)
+        inputs = INPUTS[item.op]
+        result["in"] = [
+            f"r{number}" if number >= 0 else _constant(program.constants[-1 - number], kind)
+            for number, kind in zip(item.inputs, inputs, strict=True)
+        ]
+        result["out"] = f"r{item.out}"
+        resource = RESOURCES.get(item.op)
+        if resource == "table":
+            table = program.tables[item.resource]
+            rows = self._save("table", table.rows)
+            result["table"] = {"rows": rows, "low": table.low, "high": table.high}
+        elif resource == "texture":
+            result["texture"] = self._texture(program.textures[item.resource])
+        elif resource == "attribute":
+            result["attribute"] = program.attributes[item.resource]
+        return result
+
+    def _texture(self, texture: Texture) -> str:
+        """The name of a texture of the file, written when it is first asked for."""
+        if texture.digest not in self._texture_names:
+            name = self._texture_names[texture.digest] = f"{texture.name} #{len(self._texture_names)}"
+            floats = texture.pixels.dtype != np.uint8
+            pixels = texture.pixels.astype(np.float32) if floats else texture.pixels
+            self._textures[name] = {"file": self._save("texture", pixels)}
+            if texture.srgb:
+                self._textures[name]["srgb"] = True
+        return self._texture_names[texture.digest]
 
     def _object(self, item: d.Object) -> Json:
         result: Json = {"mesh": self._mesh(item.mesh)}
@@ -98,6 +156,15 @@ class _Writer:
             result["motion"] = [_numbers(step) for step in item.motion]
         if item.instances is not None:
             result["instances"] = self._save("instances", item.instances)
+        if item.color != (1.0, 1.0, 1.0, 1.0):
+            result["color"] = list(item.color)
+        randoms = np.asarray(item.random, np.float64).reshape(-1)
+        if item.instances is not None and len(randoms) == len(item.instances):
+            result["randoms"] = self._save("randoms", randoms)
+        elif randoms[0] != 0.0:
+            result["random"] = float(randoms[0])
+        if item.attributes:
+            result["attributes"] = {entry.name: self._save("attribute", entry.values) for entry in item.attributes}
         if item.object_index:
             result["index"] = item.object_index
         return {**result, **_visibility(item)}
@@ -115,6 +182,11 @@ class _Writer:
 
     def _environment(self, environment: d.Environment) -> Json:
         visible = _visible(environment.rays, d.EVERY_RAY)
+        if environment.program is not None:
+            result: Json = {"radiance": {"program": self._program("environment", environment.program), "output": 0}}
+            if environment.sun is not None:
+                result["sun"] = {"direction": list(environment.sun.direction), "angle": environment.sun.angle}
+            return {**result, **visible}
         if environment.image is None:
             return {"radiance": list(environment.radiance), **visible}
         self._folder.mkdir(parents=True, exist_ok=True)
@@ -179,14 +251,21 @@ def _camera(camera: d.Camera) -> Json:
     return result
 
 
-def _material(material: d.Material) -> Json:
-    return {"type": material.TYPE, **{key: _parameter(value) for key, value in d.parameters(material).items()}}
+def _constant(value: Any, kind: str) -> Any:
+    return float(value[0]) if kind == "n" else _numbers(value)
 
 
-def _parameter(value: Any) -> Any:
-    """Numbers and words as they are, colours as lists, a part of a mix in place."""
+def _material(material: d.Material, program: str | None) -> Json:
+    values = {key: _parameter(value, program) for key, value in d.parameters(material).items()}
+    return {"type": material.TYPE, **values}
+
+
+def _parameter(value: Any, program: str | None) -> Any:
+    """Numbers and words as they are, colours as lists, a part of a mix in place, what a program gives by its name."""
     if isinstance(value, d.Material):
-        return _material(value)
+        return _material(value, program)
+    if isinstance(value, Output):
+        return {"program": program, "output": value.index}
     return list(value) if isinstance(value, tuple) else value
 
 

@@ -18,6 +18,7 @@ struct Destroy {
     }
 };
 using MeshHandle = std::unique_ptr<glimmer_mesh, Destroy<glimmer_mesh_destroy>>;
+using TextureHandle = std::unique_ptr<glimmer_texture, Destroy<glimmer_texture_destroy>>;
 using ImageHandle = std::unique_ptr<glimmer_image, Destroy<glimmer_image_destroy>>;
 using SceneHandle = std::unique_ptr<glimmer_scene, Destroy<glimmer_scene_destroy>>;
 using RenderHandle = std::unique_ptr<glimmer_render, Destroy<glimmer_render_destroy>>;

@@ -18,6 +18,7 @@ from addon.native import library
 from addon.native.render import Tile, close_all, open_render
 from addon.scene import description as d
 from addon.scene.problems import GlimmerError
+from addon.scene.program import Op, Table, Texture, compile_program, programmed
 from addon.scene.writer import write_scene
 
 SPP, SEED = 3, 11
@@ -119,12 +120,42 @@ def hidden_from_some() -> d.SceneDescription:
     )
 
 
+def varying() -> d.SceneDescription:
+    """Programs that look at everything that programs can look at, and a sky with a sun."""
+    random = np.random.default_rng(5)
+    image = Texture("bricks", random.integers(0, 256, (5, 7, 4), np.uint8), srgb=True)
+    ramp = Table(random.random((4, 4), np.float32), -1.0, 2.0)
+    uv = Op("attribute", (1.0,), ("center",), "uv")
+    color = Op("image", (uv, 0.0), ("flat", "linear", "repeat", "straight"), image)
+    own = Op("attribute", (1.0,), ("center",), "own")
+    tint = Op("ramp", (Op("separate", (own,), ("x",)),), ("linear",), ramp)
+    albedo = Op("blend", (0.3, color, tint), ("mix", "clamped"))
+    normal = Op("bump", (0.5, 0.1, 0.0, 0.02, 0.01, Op("geometry", (1.0,), ("normal", "center")), 1.0))
+    (shape, turned), program = programmed((d.Lambert(albedo), normal))
+    materials = (d.NamedMaterial("varies", shape, program=program, normal=turned), *MATERIALS[1:])
+    mesh = replace(
+        TETRAHEDRON, attributes=(d.Attribute("uv", "corner", random.random((12, 2), np.float32)),), slots=None
+    )
+    objects = tuple(
+        replace(item, mesh=mesh, materials=(0,), color=(0.1, 0.2, 0.3, 0.4), random=0.25) for item in SCENE.objects[1:]
+    )
+    rows = random.random((2, 3), np.float32)
+    objects = (objects[0], replace(objects[1], attributes=(d.Attribute("own", "instance", rows),)))
+    direction = Op("geometry", (1.0,), ("position", "center"))
+    shown = Op("math", (Op("geometry_number", (), ("sun_disc",)), 30.0, 0.0), ("multiply", "free"))
+    sky = Op("vector_math", (direction, (1.0, 1.0, 1.0), Op("splat", (shown,)), 0.0), ("multiply_add",))
+    sun = d.SkySun((0.3, 0.2, -1.0), 5.0)
+    environment = d.Environment(program=compile_program([sky]), sun=sun)
+    return replace(SCENE, materials=materials, objects=objects, environment=environment)
+
+
 VARIANTS = {
     "hidden from some": hidden_from_some(),
     "plain": SCENE,
     "fog": replace(SCENE, medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4)),
     "image": replace(SCENE, environment=d.Environment((0.7, 0.7, 0.7), picture(), place(0, 0, 0, 0.8))),
     "orthographic": replace(SCENE, camera=replace(camera(), projection=d.Orthographic(9.0), clip_start=-2.0)),
+    "programs": varying(),
     "motion": replace(
         SCENE, objects=tuple(replace(o, motion=np.stack([o.to_world, place(1, 1, 0.2)])) for o in SCENE.objects[:1])
     ),

@@ -269,11 +269,11 @@ if hasattr(bpy.types, "ShaderNodeVolumeCoefficients"):
     WORLDS["coefficients"] = coefficients
 
 
-def translate(constants_only: bool = False) -> dict[str, Any]:
+def translate() -> dict[str, Any]:
     facts: dict[str, Any] = {}
     for name, build in MATERIALS.items():
         notices = Notices()
-        found = export_material(build().owner, "Thing", bpy.app.version, notices, constants_only=constants_only)
+        found = export_material(build().owner, "Thing", bpy.app.version, notices)
         operations = 0 if found.program is None else len(found.program.instructions)
         facts[name] = {"is": repr(found.material), "operations": operations}
         facts[name]["notices"] = [str(notice) for notice in notices.items]
@@ -345,7 +345,6 @@ def registration() -> dict[str, Any]:
 
 result = {
     "nodes": translate(),
-    "in_a_scene_file": translate(constants_only=True),
     "fog_and_sun": fog_and_sun(),
     "registration": registration(),
 }

@@ -143,19 +143,12 @@ def test_what_varies_becomes_a_program_and_needs_no_notice(facts: dict[str, Any]
     assert notices == []
 
 
-@pytest.mark.parametrize(
-    ("name", "albedo", "words"),
-    [("unknown_shader", RED, "a diffuse surface of its colour"), ("texture", (0.5, 0.5, 0.5), "the mean of image")],
-)
-def test_what_cannot_be_translated_is_named_and_not_black(
-    facts: dict[str, Any], name: str, albedo: tuple[float, ...], words: str
-) -> None:
-    """A scene file holds constants alone."""
-    found, notices = material(facts, name, "in_a_scene_file")
+def test_what_cannot_be_translated_is_named_and_not_black(facts: dict[str, Any]) -> None:
+    found, notices = material(facts, "unknown_shader")
     assert isinstance(found, Lambert)
-    assert found.albedo == close(albedo)
+    assert found.albedo == close(RED)
     assert len(notices) == 1
-    assert notices[0].startswith(NAMED) and "node '" in notices[0] and words in notices[0]
+    assert notices[0].startswith(NAMED) and "node '" in notices[0] and "a diffuse surface of its colour" in notices[0]
 
 
 def test_a_coat(facts: dict[str, Any], host: Host) -> None:

@@ -122,4 +122,30 @@ std::vector<uint32_t> read_index_array(const Value &value, size_t width, uint32_
     });
 }
 
+Attributes read_attributes(const Value &table, std::span<const std::pair<std::string_view, size_t>> rows_of,
+                           glimmer_attribute_domain first, SceneFolder &folder) {
+    std::vector<std::string_view> words;
+    for (const auto &[word, rows] : rows_of)
+        words.push_back(word);
+    Attributes result;
+    table.for_each_named([&](const std::string &name, const Value &value) {
+        size_t domain = 0;
+        if (rows_of.size() > 1) {
+            value.expect_object({"domain", "values"});
+            domain = one_of(value.at("domain"), "a domain", "domains", words);
+        }
+        const Value values = rows_of.size() > 1 ? value.at("values") : value;
+        const NpyArray array =
+            read_float_npy(values, {{0, 1}, {0, 2}, {0, 3}, {0, 4}}, "(n, 1), (n, 2), (n, 3) or (n, 4)", folder);
+        if (array.shape[0] != rows_of[domain].second)
+            values.fail("has " + std::to_string(array.shape[0]) + " rows; " + std::to_string(rows_of[domain].second) +
+                        " are allowed, one for each " + std::string(rows_of[domain].first));
+        result.names.push_back(name);
+        result.values.emplace_back(array.values.begin(), array.values.end());
+        result.list.push_back({result.names.back().c_str(), glimmer_attribute_domain(int(first) + int(domain)),
+                               uint32_t(array.shape[1]), result.values.back().data()});
+    });
+    return result;
+}
+
 } // namespace glimmer

@@ -65,7 +65,8 @@ void check_material(glimmer_result result, const Value &value, const std::string
 /// Adds materials depth first, so that the engine gets the parts of a mix before the mix.
 class MaterialReader {
   public:
-    MaterialReader(const Value &table, glimmer_scene *scene) : table_(table), scene_(scene) {}
+    MaterialReader(const Value &table, const Programs &programs, glimmer_scene *scene)
+        : table_(table), programs_(programs), scene_(scene) {}
 
     Materials read() {
         table_.for_each_named([&](const std::string &name, const Value &value) {
@@ -123,11 +124,21 @@ class MaterialReader {
         std::vector<std::string_view> keys{"type"};
         for (const auto *info : schema_.parameters(type))
             keys.emplace_back(info->key);
+        keys.emplace_back("normal");
         value.expect_object(keys);
         std::vector<glimmer_parameter> parameters;
+        std::vector<std::pair<const char *, Value>> varying; // the engine says what may vary
+        if (const auto normal = value.find("normal"))
+            varying.emplace_back("normal", *normal);
         for (const auto *info : schema_.parameters(type))
-            if (const auto given = value.find(info->key))
-                parameters.push_back(read(*given, *info, name));
+            if (const auto given = value.find(info->key)) {
+                if (is_binding(*given) && (info->kind == GLIMMER_NUMBER || info->kind == GLIMMER_COLOR)) {
+                    varying.emplace_back(info->key, *given);
+                    parameters.push_back(stand_in(*info));
+                } else {
+                    parameters.push_back(read(*given, *info, name));
+                }
+            }
         glimmer_material_desc desc;
         glimmer_material_init(&desc);
         desc.name = name.c_str();
@@ -136,7 +147,20 @@ class MaterialReader {
         desc.parameters = parameters.data();
         uint32_t index = 0;
         check_material(glimmer_scene_add_material(scene_, &desc, &index), value, name);
+        for (const auto &[key, given] : varying) {
+            const Binding binding = programs_.read_binding(given);
+            check_material(glimmer_scene_bind(scene_, index, key, binding.program, binding.output), given, name);
+        }
         return {index, type};
+    }
+
+    /// For what a program gives: something within the parameter's range.
+    static glimmer_parameter stand_in(const glimmer_parameter_info_t &info) {
+        glimmer_parameter parameter{};
+        parameter.key = info.key;
+        for (float &value : parameter.value)
+            value = float(std::clamp(0.5, info.low, info.high));
+        return parameter;
     }
 
     glimmer_parameter read(const Value &value, const glimmer_parameter_info_t &info, const std::string &name) {
@@ -167,6 +191,7 @@ class MaterialReader {
     Schema schema_;
     std::deque<std::string> words_; ///< what parameters point to
     const Value &table_;
+    const Programs &programs_;
     glimmer_scene *scene_;
     Materials result_;
     std::unordered_map<std::string, Value> values_;
@@ -183,8 +208,8 @@ uint32_t Materials::find(const Value &name) const {
     return found->second;
 }
 
-Materials read_materials(const Value &materials, glimmer_scene *scene) {
-    return MaterialReader(materials, scene).read();
+Materials read_materials(const Value &materials, const Programs &programs, glimmer_scene *scene) {
+    return MaterialReader(materials, programs, scene).read();
 }
 
 } // namespace glimmer

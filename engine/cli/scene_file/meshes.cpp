@@ -52,7 +52,7 @@ MeshData read_mesh_arrays(const Value &value, SceneFolder &folder) {
 }
 
 Mesh read_mesh(const std::string &name, const Value &value, SceneFolder &folder) {
-    value.expect_object({"file", "vertices", "triangles", "normals", "uvs", "slots"});
+    value.expect_object({"file", "vertices", "triangles", "normals", "uvs", "slots", "attributes"});
     const bool has_arrays = value.has("vertices") || value.has("triangles") || value.has("normals") || value.has("uvs");
     if (value.has("file") == has_arrays)
         value.fail("needs either file, or vertices and triangles (and normals, uvs)");
@@ -77,6 +77,14 @@ Mesh read_mesh(const std::string &name, const Value &value, SceneFolder &folder)
     desc.triangle_count = data.triangle_count();
     desc.triangles = data.triangles.data();
     desc.slots = data.slots.empty() ? nullptr : data.slots.data();
+    Attributes attributes;
+    if (const auto table = value.find("attributes")) {
+        const std::pair<std::string_view, size_t> rows_of[] = {
+            {"vertex", data.vertex_count()}, {"corner", 3 * data.triangle_count()}, {"face", data.triangle_count()}};
+        attributes = read_attributes(*table, rows_of, GLIMMER_PER_VERTEX, folder);
+        desc.attribute_count = attributes.list.size();
+        desc.attributes = attributes.list.data();
+    }
     glimmer_mesh *handle = nullptr;
     check(glimmer_mesh_create(&desc, &handle), value.where());
     mesh.handle.reset(handle);

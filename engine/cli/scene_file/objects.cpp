@@ -67,8 +67,8 @@ std::vector<double> read_motion(const Value &value) {
 
 void read_object(const Value &value, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
                  SceneFolder &folder) {
-    value.expect_object(
-        {"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices", "visible", "holdout"});
+    value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices",
+                         "color", "random", "randoms", "attributes", "visible", "holdout"});
     const std::string name = value.path();
     glimmer_object_desc desc;
     glimmer_object_init(&desc);
@@ -118,6 +118,28 @@ void read_object(const Value &value, glimmer_scene *scene, const Materials &mate
             file->fail("has " + std::to_string(indices.size()) + " rows; one for each of the " +
                        std::to_string(desc.instance_count) + " instances is allowed");
         desc.object_indices = indices.data();
+    }
+    if (const auto color = value.find("color")) {
+        const auto rgba = color->numbers<4>();
+        std::copy(rgba.begin(), rgba.end(), desc.color);
+    }
+    if (const auto random = value.find("random"))
+        desc.random = random->single(kUnit);
+    const size_t count = desc.instances ? desc.instance_count : 1;
+    std::vector<float> randoms;
+    if (const auto file = value.find("randoms")) {
+        const std::vector<double> numbers = read_float_array(*file, 0, folder);
+        if (!value.has("instances") || numbers.size() != count)
+            file->fail("has " + std::to_string(numbers.size()) + " rows; one for each instance is allowed");
+        randoms.assign(numbers.begin(), numbers.end());
+        desc.randoms = randoms.data();
+    }
+    Attributes attributes;
+    if (const auto table = value.find("attributes")) {
+        const std::pair<std::string_view, size_t> rows_of[] = {{"instance", count}};
+        attributes = read_attributes(*table, rows_of, GLIMMER_PER_INSTANCE, folder);
+        desc.attribute_count = attributes.list.size();
+        desc.attributes = attributes.list.data();
     }
     if (value.has("instances") && desc.instance_count == 0)
         return; // an empty field is a field

@@ -36,15 +36,39 @@ struct Meshes {
     Mesh &find(const Value &name);
 };
 
+struct Textures {
+    std::vector<std::string> names;
+    std::unordered_map<std::string, TextureHandle> handles;
+
+    glimmer_texture *find(const Value &name) const;
+};
+
+/// An output of a program, in place of a number, colour or vector.
+struct Binding {
+    uint32_t program, output;
+};
+
+struct Programs {
+    std::vector<std::string> names;
+    std::unordered_map<std::string, uint32_t> numbers;
+
+    Binding read_binding(const Value &value) const;
+};
+
+/// Whether a value is {"program": ...}.
+bool is_binding(const Value &value);
+
 Film read_film(const Value &film, glimmer_scene *scene);
 void read_camera(const Value &camera, glimmer_scene *scene);
-Materials read_materials(const Value &materials, glimmer_scene *scene);
+Textures read_textures(const Value &textures, SceneFolder &folder);
+Programs read_programs(const Value &programs, const Textures &textures, glimmer_scene *scene, SceneFolder &folder);
+Materials read_materials(const Value &materials, const Programs &programs, glimmer_scene *scene);
 Meshes read_meshes(const Value &meshes, SceneFolder &folder);
 void read_object(const Value &object, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
                  SceneFolder &folder);
 void read_spheres(const Value &spheres, glimmer_scene *scene, const Materials &materials, SceneFolder &folder);
 void read_light(const Value &light, glimmer_scene *scene);
-void read_environment(const Value &environment, glimmer_scene *scene, SceneFolder &folder);
+void read_environment(const Value &environment, const Programs &programs, glimmer_scene *scene, SceneFolder &folder);
 void read_medium(const Value &medium, glimmer_scene *scene);
 DepthLimits read_depth_limits(const Value &render);
 

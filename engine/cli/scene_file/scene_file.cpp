@@ -16,17 +16,23 @@ LoadedScene load_scene(const std::filesystem::path &path) {
     if (!json.is_object())
         root.refuse("a scene, which is an object {...}");
     root.at("glimmer").integer(1, 1); // before unknown keys: a later version may have more of them
-    root.expect_object({"glimmer", "film", "camera", "materials", "meshes", "objects", "spheres", "lights",
-                        "environment", "medium", "render"});
+    root.expect_object({"glimmer", "film", "camera", "textures", "programs", "materials", "meshes", "objects",
+                        "spheres", "lights", "environment", "medium", "render"});
     glimmer_scene *handle = nullptr;
     check(glimmer_scene_create(&handle), file);
     loaded.scene.reset(handle);
 
     loaded.film = read_film(root.at("film"), handle);
     read_camera(root.at("camera"), handle);
+    Textures textures;
+    if (const auto value = root.find("textures"))
+        textures = read_textures(*value, folder);
+    Programs programs;
+    if (const auto value = root.find("programs"))
+        programs = read_programs(*value, textures, handle, folder);
     Materials materials;
     if (const auto value = root.find("materials"))
-        materials = read_materials(*value, handle);
+        materials = read_materials(*value, programs, handle);
     Meshes meshes;
     if (const auto value = root.find("meshes"))
         meshes = read_meshes(*value, folder);
@@ -37,7 +43,7 @@ LoadedScene load_scene(const std::filesystem::path &path) {
     if (const auto value = root.find("lights"))
         value->for_each([&](const Value &light) { read_light(light, handle); });
     if (const auto value = root.find("environment"))
-        read_environment(*value, handle, folder);
+        read_environment(*value, programs, handle, folder);
     if (const auto value = root.find("medium"))
         read_medium(*value, handle);
     if (const auto value = root.find("render"))

@@ -23,6 +23,11 @@ class Bad:
     message: str
 
 
+def program(step: dict[str, Any]) -> dict[str, Any]:
+    """A table of one program of one step."""
+    return {"p": {"steps": [step], "outputs": ["r0"]}}
+
+
 REMOVED = object()
 BAD = [
     # top level
@@ -35,7 +40,7 @@ BAD = [
         "camera: to_world must be rigid",
     ),
     Bad(("camera",), REMOVED, 'the key "camera" is missing'),
-    Bad(("extra",), 1, 'unknown key "extra"; allowed here are glimmer, film, camera, materials,'),
+    Bad(("extra",), 1, 'unknown key "extra"; allowed here are glimmer, film, camera, textures, programs, materials,'),
     Bad(("objects",), {}, "objects: an object is not a list [...]"),
     Bad(("meshes",), [], "meshes: a list of 0 is not an object {...}"),
     Bad(("objects", 0), 5, "objects[0]: 5 is not an object {...}"),
@@ -97,6 +102,35 @@ BAD = [
         {"type": "orthographic", "to_world": scenes.IDENTITY, "width": 0},
         "camera.width: 0 is not a number above 0",
     ),
+    # programs
+    Bad(("programs",), {"p": 1}, "programs.p: 1 is not an object {...}"),
+    Bad(("programs",), program({"op": "wood"}), 'programs.p.steps[0].op: "wood" is not an operation; operations are'),
+    Bad(("programs",), program({"op": "math", "out": "r0"}), 'programs.p.steps[0]: the key "in" is missing'),
+    Bad(
+        ("programs",),
+        program({"op": "splat", "in": ["r1"], "out": "r0"}),
+        'programs.p: program "p": instruction 0 (splat): input 0 is register 1, which nothing has written',
+    ),
+    Bad(
+        ("programs",),
+        program({"op": "splat", "in": [1], "out": "r256"}),
+        'programs.p.steps[0].out: "r256" is not a register, "r0" to "r255"',
+    ),
+    Bad(
+        ("programs",),
+        program({"op": "splat", "modes": ["x"], "in": [1], "out": "r0"}),
+        'programs.p.steps[0].modes: has more words than the 0 that "splat" takes',
+    ),
+    Bad(
+        ("programs",),
+        program({"op": "ramp", "in": [1], "out": "r0", "texture": "t"}),
+        "programs.p.steps[0].texture: is nothing that this operation takes",
+    ),
+    Bad(
+        ("materials", "wax", "albedo"),
+        {"program": "p"},
+        'materials.wax.albedo.program: "p" is not a program; programs are none',
+    ),
     # materials
     Bad(
         ("materials", "wax", "type"),
@@ -109,7 +143,7 @@ BAD = [
     Bad(
         ("materials", "wax", "alpha"),
         0.1,
-        'materials.wax: unknown key "alpha"; allowed here are type, albedo, roughness, facets, emission',
+        'materials.wax: unknown key "alpha"; allowed here are type, albedo, roughness, facets, emission, normal',
     ),
     Bad(("materials", "wax", "emission"), -0.1, "materials.wax.emission: -0.1 is not a number of 0 or more"),
     Bad(("materials", "wax", "emission"), 1e39, "materials.wax.emission: 1e+39 is too large; up to 3.4e38 is allowed"),
