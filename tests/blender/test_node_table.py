@@ -24,15 +24,15 @@ What Glimmer makes of each node of Blender's shader trees, in the oldest Blender
 - A number: that many of the tests' cases have the node and show, as emission, pixel by pixel what Cycles shows
   (`tests/blender/test_shading.py`; `tests/blender/shading_cases.py` has the modes and options).
 - `value`: translated, without a case of its own. `shader`: a closure; what of it differs is told where it is used.
-- `told`: not translated. Its place takes what passes through the node, or a substitute, and a notice in Blender's info log,
-  the report and the "Differs from Cycles" box names the object, the material and the node.
+- `told`: not translated. Its place takes what passes through the node, or a substitute, and a notice in Blender's info
+  log, the report and the "Differs from Cycles" box names the object, the material and the node.
 - `-`: this Blender has no such node.
 
-Beneath the horizon the single scattering sky of Blender 5 differs by up to two hundredths. The sun of a Sky Texture is a
-lamp of the mean of its disc, and the camera sees the disc itself.
+Beneath the horizon the single scattering sky of Blender 5 differs by up to two hundredths. The sun of a Sky Texture is
+a lamp of the mean of its disc, and the camera sees the disc itself.
 
-Light Path: *Is Camera Ray* and *Is Shadow Ray* are exact. Light that is sampled, and light vertices, cannot know the rest:
-they are asked for as by a diffuse ray of depth 1. The depths of single kinds of rays are 0, and both are told.
+Light Path: *Is Camera Ray* and *Is Shadow Ray* are exact. Light that is sampled, and light vertices, cannot know the
+rest: they are asked for as by a diffuse ray of depth 1. The depths of single kinds of rays are 0, and both are told.
 
 | node | 3.4 | newest |
 |---|---|---|
