@@ -280,7 +280,11 @@ def translate() -> dict[str, Any]:
     for name, build in WORLDS.items():
         notices = Notices()
         environment, medium = export_world(build().owner, notices)
-        facts[name] = {"radiance": environment.radiance, "medium": None if medium is None else vars(medium)}
+        facts[name] = {
+            "radiance": environment.radiance,
+            "varies": environment.program is not None,
+            "medium": None if medium is None else vars(medium),
+        }
         facts[name]["notices"] = [str(notice) for notice in notices.items]
     return facts
 

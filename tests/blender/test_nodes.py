@@ -177,10 +177,10 @@ def test_a_background(facts: dict[str, Any]) -> None:
     assert found["notices"] == []
 
 
-def test_a_sky_is_named_and_not_black(facts: dict[str, Any]) -> None:
+def test_a_sky_varies_with_the_direction(facts: dict[str, Any]) -> None:
     found = facts["nodes"]["sky"]
-    assert found["radiance"] == close((0.6, 0.4, 0.2))
-    assert len(found["notices"]) == 1 and "world 'Test" in found["notices"][0]
+    assert found["varies"] and not facts["nodes"]["background"]["varies"]
+    assert found["notices"] == []
 
 
 def test_volumes_add_up(facts: dict[str, Any]) -> None:
