@@ -15,8 +15,9 @@ void draw_error_curve(Input &in) {
         require(table && std::strchr(table, '\n'), "a table without its line of names");
     glimmer_plot_desc desc;
     glimmer_plot_init(&desc);
-    desc.width = in.ConsumeIntegralInRange<uint32_t>(190, 700);
-    desc.height = in.ConsumeIntegralInRange<uint32_t>(190, 300);
+    // Every pixel of a plot costs time that finds nothing. Few are large enough for a legend.
+    desc.width = in.ConsumeIntegralInRange<int>(0, 31) == 31 ? 620 : in.ConsumeIntegralInRange<uint32_t>(196, 204);
+    desc.height = in.ConsumeIntegralInRange<uint32_t>(196, 204);
     if (in.ConsumeIntegralInRange<int>(0, 3) == 0)
         in.fill(desc.line, 3);
     in.spoil_size(desc);
