@@ -174,6 +174,8 @@ class NativeScene:
             desc.motion_count, desc.motion = len(motion), _pointer(motion)
         attributes, keep = attribute_structs(item.attributes)
         desc.attribute_count, desc.attributes = len(attributes), ctypes.addressof(attributes)
+        interior = self._interior(item.interior)
+        desc.interior = None if interior is None else ctypes.addressof(interior)
         self.library.call("glimmer_scene_add_object", self.handle, byref(desc))
         del keep
 
@@ -187,7 +189,18 @@ class NativeScene:
         desc.material = materials[spheres.material]
         desc.object_index = spheres.object_index
         desc.visible, desc.holdout = int(spheres.rays), int(spheres.is_holdout)
+        interior = self._interior(spheres.interior)
+        desc.interior = None if interior is None else ctypes.addressof(interior)
         self.library.call("glimmer_scene_add_spheres", self.handle, byref(desc))
+
+    def _interior(self, medium: d.Medium | None) -> Any:
+        """The struct, which must outlive the call that it is for."""
+        if medium is None:
+            return None
+        desc = self.library.init(structs.MediumDesc)
+        desc.sigma_a, desc.sigma_s, desc.g = medium.sigma_a, medium.sigma_s, medium.g
+        desc.emission = medium.emission
+        return desc
 
     def _add_lamp(self, lamp: d.Lamp) -> None:
         desc = self.library.init(structs.LightDesc)

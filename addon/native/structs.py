@@ -173,6 +173,16 @@ class MaterialDesc(ctypes.Structure):
     ]
 
 
+class MediumDesc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("sigma_a", c_double * 3),
+        ("sigma_s", c_double * 3),
+        ("g", c_double),
+        ("emission", c_double * 3),
+    ]
+
+
 class ObjectDesc(ctypes.Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -195,6 +205,7 @@ class ObjectDesc(ctypes.Structure):
         ("holdout", c_int),
         ("attribute_count", c_size_t),
         ("attributes", c_void_p),
+        ("interior", c_void_p),
     ]
 
 
@@ -210,6 +221,7 @@ class SpheresDesc(ctypes.Structure):
         ("object_index", c_uint32),
         ("visible", c_uint32),
         ("holdout", c_int),
+        ("interior", c_void_p),
     ]
 
 
@@ -379,6 +391,7 @@ INITIALISERS: dict[str, type[ctypes.Structure]] = {
     "glimmer_texture_init": TextureDesc,
     "glimmer_program_init": ProgramDesc,
     "glimmer_material_init": MaterialDesc,
+    "glimmer_medium_init": MediumDesc,
     "glimmer_object_init": ObjectDesc,
     "glimmer_spheres_init": SpheresDesc,
     "glimmer_light_init": LightDesc,

@@ -248,6 +248,18 @@ class NamedMaterial:
     pass_index: int = 0  # what Blender's material index pass shows
     program: Program | None = None  # what of the material varies
     normal: Output | None = None  # the shading normal, in the world
+    volume: Medium | None = None  # what Blender fills the objects with that have the material
+
+
+# ---- Media --------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Medium:
+    sigma_a: Rgb
+    sigma_s: Rgb
+    g: float = 0.0
+    emission: Rgb = BLACK  # radiance that a length adds; of a closed surface's medium alone
 
 
 # ---- Geometry -----------------------------------------------------------------------------------------------------
@@ -299,6 +311,7 @@ class Object:
     rays: Rays = EVERY_RAY  # that meet it
     is_holdout: bool = False  # black where the camera sees it
     attributes: tuple[Attribute, ...] = ()  # of instances: a row each
+    interior: Medium | None = None  # what the mesh is filled with, whatever its materials
 
 
 @dataclass(frozen=True, eq=False)
@@ -310,6 +323,7 @@ class Spheres:
     object_index: int = 0
     rays: Rays = EVERY_RAY
     is_holdout: bool = False
+    interior: Medium | None = None
 
 
 # ---- Lights -------------------------------------------------------------------------------------------------------
@@ -388,13 +402,6 @@ class Environment:
     program: Program | None = None  # its first output is the radiance; but for the sun the rest is then not looked at
     rays: Rays = EVERY_RAY  # that see it
     sun: SkySun | None = None  # of the program
-
-
-@dataclass(frozen=True)
-class Medium:
-    sigma_a: Rgb
-    sigma_s: Rgb
-    g: float = 0.0
 
 
 # ---- The whole ----------------------------------------------------------------------------------------------------

@@ -68,8 +68,7 @@ class _Writer:
             "environment": self._environment(scene.environment),
         }
         if scene.medium is not None:
-            medium = scene.medium
-            result["medium"] = {"sigma_a": list(medium.sigma_a), "sigma_s": list(medium.sigma_s), "g": medium.g}
+            result["medium"] = _medium(scene.medium)
         result["render"] = {key: getattr(scene.settings, key) for key in RENDER_KEYS}
         return result
 
@@ -167,6 +166,8 @@ class _Writer:
             result["attributes"] = {entry.name: self._save("attribute", entry.values) for entry in item.attributes}
         if item.object_index:
             result["index"] = item.object_index
+        if item.interior is not None:
+            result["interior"] = _interior(item.interior)
         return {**result, **_visibility(item)}
 
     def _spheres(self, spheres: d.Spheres) -> Json:
@@ -178,6 +179,8 @@ class _Writer:
         result["material"] = self._material_names[spheres.material]
         if spheres.object_index:
             result["index"] = spheres.object_index
+        if spheres.interior is not None:
+            result["interior"] = _interior(spheres.interior)
         return {**result, **_visibility(spheres)}
 
     def _environment(self, environment: d.Environment) -> Json:
@@ -217,6 +220,15 @@ def _unique(names: list[str]) -> list[str]:
         count = seen[name] = seen.get(name, -1) + 1
         result.append(name if count == 0 else f"{name} #{count}")
     return result
+
+
+def _medium(medium: d.Medium) -> Json:
+    return {"sigma_a": list(medium.sigma_a), "sigma_s": list(medium.sigma_s), "g": medium.g}
+
+
+def _interior(medium: d.Medium) -> Json:
+    emission = {"emission": list(medium.emission)} if any(medium.emission) else {}
+    return {**_medium(medium), **emission}
 
 
 def _film(film: d.Film) -> Json:

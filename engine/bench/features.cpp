@@ -29,7 +29,7 @@ SceneDescription moonlit_plates(bool medium) {
     for (uint32_t i = 0; i < 3; ++i)
         add_moon(scene, 2.1f * float(i), {-20.0 + 20 * i, 40, 12.0 + i}, 2);
     if (medium)
-        scene.medium = MediumDescription{{0.001, 0.001, 0.001}, {0.005, 0.0055, 0.0065}, 0};
+        scene.medium = MediumDescription{{0.001, 0.001, 0.001}, {0.005, 0.0055, 0.0065}, 0, {}};
     const double down = 0.1,
                  rows[16] = {1,   0, 0, 0, 0, std::sin(down), -std::cos(down), -4, 0, std::cos(down), std::sin(down),
                              7.5, 0, 0, 0, 1};

@@ -260,6 +260,16 @@ typedef enum glimmer_ray {
     GLIMMER_RAY_ALL = 63
 } glimmer_ray;
 
+/* What a closed surface is filled with: homogeneous. Per channel and length; g: Henyey-Greenstein, -1 < g < 1. */
+typedef struct glimmer_medium_desc {
+    size_t struct_size;
+    double sigma_a[3], sigma_s[3]; /* absorption and scattering, >= 0 */
+    double g;
+    double emission[3]; /* radiance that a length adds, >= 0 */
+} glimmer_medium_desc;
+
+GLIMMER_API void glimmer_medium_init(glimmer_medium_desc *desc);
+
 typedef struct glimmer_object_desc {
     size_t struct_size;
     const char *name; /* for messages; may be null */
@@ -285,6 +295,8 @@ typedef struct glimmer_object_desc {
                             behind it. Other rays meet it as it is */
     size_t attribute_count;                     /* up to 256 */
     const struct glimmer_attribute *attributes; /* per instance: what programs find in place of the mesh's own */
+    const glimmer_medium_desc *interior;        /* what the mesh, which should be closed, is filled with, whatever its
+                                                   materials; null for nothing. Where several are, they add up. */
 } glimmer_object_desc;
 
 GLIMMER_API void glimmer_object_init(glimmer_object_desc *desc);
@@ -301,6 +313,7 @@ typedef struct glimmer_spheres_desc {
     uint32_t object_index;
     uint32_t visible; /* as of objects */
     int holdout;
+    const glimmer_medium_desc *interior; /* as of an object */
 } glimmer_spheres_desc;
 
 GLIMMER_API void glimmer_spheres_init(glimmer_spheres_desc *desc);

@@ -39,6 +39,7 @@ CHANGES = {
     "object": lambda s: replace(s, objects=(replace(s.objects[0], to_world=moved(s.objects[0].to_world)),)),
     "instances": lambda s: replace(s, objects=(replace(s.objects[0], instances=np.eye(4)[np.newaxis]),)),
     "spheres": lambda s: replace(s, spheres=(replace(s.spheres[0], radii=np.array([1.0, 2.0])),)),
+    "interior": lambda s: replace(s, objects=(replace(s.objects[0], interior=d.Medium(d.BLACK, d.WHITE)),)),
     "light": lambda s: replace(s, lights=(d.PointLight("Lamp", (0.0, 0.0, 1.0), d.WHITE),)),
     "medium": lambda s: replace(s, medium=None),
     "settings": lambda s: replace(s, settings=d.RenderSettings(seed=1)),

@@ -149,6 +149,7 @@ def varying() -> d.SceneDescription:
     return replace(SCENE, materials=materials, objects=objects, environment=environment)
 
 
+HAZE = d.Medium((0.1, 0.2, 0.0), (0.3, 0.5, 0.1), -0.2, emission=(0.0, 0.1, 0.3))
 VARIANTS = {
     "hidden from some": hidden_from_some(),
     "plain": SCENE,
@@ -161,6 +162,11 @@ VARIANTS = {
     ),
     "moving camera": replace(
         SCENE, camera=replace(camera(), motion=np.stack([camera().to_world, place(1, 1, 1) @ camera().to_world]))
+    ),
+    "interiors": replace(
+        SCENE,
+        objects=(*SCENE.objects[:2], replace(SCENE.objects[2], interior=HAZE)),
+        spheres=(*SCENE.spheres[:-1], replace(SCENE.spheres[-1], interior=replace(HAZE, emission=d.BLACK))),
     ),
     "empty": replace(SCENE, objects=(), spheres=(), lights=()),
 }

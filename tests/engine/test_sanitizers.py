@@ -18,6 +18,7 @@ from tests.engine.scenes import Scene, every_key, furnace, hazy_moon, run_glimme
 pytestmark = pytest.mark.timeout(1800)
 
 GREY_FOG = {"sigma_a": 0.01, "sigma_s": 0.05}
+INTERIOR = {"sigma_a": 0.1, "sigma_s": [0.2, 0.3, 0.5], "g": 0.2, "emission": 0.1}
 """Isotropic, so that light vertices are shared."""
 
 FUZZERS = {"api": 40_000, "mesh_files": 100_000, "scene": 4_000}
@@ -36,6 +37,7 @@ def some_scenes(folder: Path) -> dict[str, Scene]:
         "shared light vertices": {**every, "medium": GREY_FOG, "render": {}},
         "coloured fog": {**every, "medium": {"sigma_a": 0.01, "sigma_s": [0.05, 0.1, 0.02]}, "render": {}},
         "in glass": {**every, "camera": {"origin": [-1, -3, 1], "target": [0, 0, 0], "fov_x": 60}},
+        "fog in bodies": {**every, "objects": [*every["objects"][:3], {**every["objects"][3], "interior": INTERIOR}]},
         "no fog": {key: value for key, value in every.items() if key != "medium"},
         "furnace": furnace(),
         "moon": hazy_moon(),

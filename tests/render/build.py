@@ -124,17 +124,28 @@ class Builder:
         return len(self._materials) - 1
 
     def mesh(
-        self, mesh: d.Mesh, material: d.Material, instances: Array | None = None, motion: Array | None = None
+        self,
+        mesh: d.Mesh,
+        material: d.Material,
+        instances: Array | None = None,
+        motion: Array | None = None,
+        interior: d.Medium | None = None,
     ) -> "Builder":
         number = self.material(material)
-        self._objects.append(d.Object(mesh.name, mesh, (number,), instances=instances, motion=motion))
+        self._objects.append(
+            d.Object(mesh.name, mesh, (number,), instances=instances, motion=motion, interior=interior)
+        )
         return self
 
-    def sphere(self, center: ArrayLike, radius: float, material: d.Material) -> "Builder":
-        return self.spheres(np.atleast_2d(np.asarray(center, np.float64)), np.array([radius]), material)
+    def sphere(
+        self, center: ArrayLike, radius: float, material: d.Material, interior: d.Medium | None = None
+    ) -> "Builder":
+        return self.spheres(np.atleast_2d(np.asarray(center, np.float64)), np.array([radius]), material, interior)
 
-    def spheres(self, centers: Array, radii: Array, material: d.Material) -> "Builder":
-        self._spheres.append(d.Spheres("spheres", centers, radii, self.material(material)))
+    def spheres(
+        self, centers: Array, radii: Array, material: d.Material, interior: d.Medium | None = None
+    ) -> "Builder":
+        self._spheres.append(d.Spheres("spheres", centers, radii, self.material(material), interior=interior))
         return self
 
     def hide(self, rays: d.Rays) -> "Builder":

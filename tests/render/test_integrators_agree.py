@@ -9,7 +9,7 @@ import pytest
 
 from addon.scene import description as d
 from tests.engine.library import Scene, engine, rendering
-from tests.render.build import WHITE, Array, Builder, camera, floor, grey, hexagon, look_at, octahedron, quad, sky
+from tests.render.build import WHITE, Array, Builder, box, camera, floor, grey, hexagon, look_at, octahedron, quad, sky
 from tests.render.statistics import Measurement, Pictures, blocks, check_same
 
 pytestmark = pytest.mark.timeout(900)  # some of its scenes take minutes on a busy machine
@@ -228,6 +228,30 @@ def glints_in_fog() -> Builder:
     return scene.seen_by(view, d.Film(32, 24))
 
 
+def haze_box(view: d.Camera, metal: d.Surface = PLATE) -> Builder:
+    """Fog in a box that ends amid the plates, lit from within and, by a sun and a sky, from outside."""
+    scene = Builder(view, 32, 24, environment=d.Environment((0.1, 0.15, 0.3)))
+    scene.mesh(hexagon(1, 0.3), metal, instances=plates())
+    scene.mesh(box((-4, -5, -1), (3, 9, 5)), d.Null(), interior=d.Medium((0.01, 0.03, 0.0), (0.1, 0.08, 0.15), 0.3))
+    scene.sphere((-2, 6, 3), 0.5, d.Light((6, 3, 2))).sphere((4, 9, 3), 0.8, d.Light((0.3, 3, 0.5)))
+    return scene.lamp(d.SunLight("sun", (0.4, 0.3, -1), (1, 0.9, 0.7), 3)).lamp(
+        d.PointLight("point", (1, 4, 2), grey(2))
+    )
+
+
+def bodies_in_fog() -> Builder:
+    """Fog within a moving box, a ball, murky glass and glass about glass, and about all of them."""
+    scene = Builder(camera((0, -4, 2), (0, 4, 1), 60), 24, 16, medium=d.Medium(grey(0.005), grey(0.03)))
+    scene.mesh(floor(0, 8, (0, 4)), d.Lambert(grey(0.6))).lamp(d.PointLight("point", (0, 3, 4), grey(30)))
+    rise = np.tile(np.eye(4), (2, 1, 1))
+    rise[1, :3, 3] = (1, 0, 1)
+    thick = d.Medium((0.0, 0.1, 0.3), (1, 0.8, 0.2), 0.5)
+    scene.mesh(box((-3, 3, 0.2), (-1, 5, 1.2)), d.Null(), motion=rise, interior=thick)
+    scene.sphere((-0.5, 4.5, 0.8), 1, d.Null(), interior=replace(thick, g=-0.3, emission=(0.1, 0, 0.1)))
+    scene.sphere((2, 4, 1), 0.8, d.Glass(1.3), interior=replace(thick, sigma_s=grey(0.5)))
+    return scene.sphere((2, 4, 1), 0.4, d.Glass(1.5)).sphere((1, 7, 2), 0.6, d.Light((2, 2, 5)))
+
+
 SCENES: dict[str, Callable[[], Builder]] = {
     "field": lambda: field(None),
     "field under a sky": lambda: Builder(camera((0, -4, 4), (0, 8, 1.5), 60), 32, 24, environment=sky(0.5)).mesh(
@@ -263,6 +287,9 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "glass between lights": glass_between_lights,
     "point over a mirror": point_over_mirror,
     "far beyond a screen": fog_far_beyond_a_screen,
+    "haze box": lambda: haze_box(camera((0, -4, 4), (0, 8, 1.5), 60)),
+    "haze box from outside": lambda: haze_box(camera((8, -8, 7), (0, 4, 1), 50), d.Conductor(0.05, f0=grey(0.8))),
+    "bodies in fog": bodies_in_fog,
 }
 
 

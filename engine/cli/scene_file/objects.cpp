@@ -68,7 +68,7 @@ std::vector<double> read_motion(const Value &value) {
 void read_object(const Value &value, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
                  SceneFolder &folder) {
     value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices",
-                         "color", "random", "randoms", "attributes", "visible", "holdout"});
+                         "color", "random", "randoms", "attributes", "visible", "holdout", "interior"});
     const std::string name = value.path();
     glimmer_object_desc desc;
     glimmer_object_init(&desc);
@@ -101,6 +101,9 @@ void read_object(const Value &value, glimmer_scene *scene, const Materials &mate
         desc.visible = read_rays(*visible);
     if (const auto holdout = value.find("holdout"))
         desc.holdout = holdout->boolean();
+    const auto interior = read_interior(value);
+    if (interior)
+        desc.interior = &*interior;
 
     std::vector<double> instances;
     std::vector<uint32_t> indices;

@@ -8,6 +8,7 @@
 #include "scene_folder.h"
 #include "value.h"
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -70,6 +71,8 @@ void read_spheres(const Value &spheres, glimmer_scene *scene, const Materials &m
 void read_light(const Value &light, glimmer_scene *scene);
 void read_environment(const Value &environment, const Programs &programs, glimmer_scene *scene, SceneFolder &folder);
 void read_medium(const Value &medium, glimmer_scene *scene);
+/// What an object, or a group of spheres, is filled with.
+std::optional<glimmer_medium_desc> read_interior(const Value &owner);
 DepthLimits read_depth_limits(const Value &render);
 
 /// What stands at "motion", row by row and one matrix after another; empty where there is none.

@@ -5,7 +5,8 @@
 namespace glimmer {
 
 void read_spheres(const Value &value, glimmer_scene *scene, const Materials &materials, SceneFolder &folder) {
-    value.expect_object({"center", "centers", "radius", "radii", "material", "index", "visible", "holdout"});
+    value.expect_object(
+        {"center", "centers", "radius", "radii", "material", "index", "visible", "holdout", "interior"});
     if (value.has("center") == value.has("centers"))
         value.fail("needs either center or centers");
     if (value.has("radius") == value.has("radii"))
@@ -22,6 +23,9 @@ void read_spheres(const Value &value, glimmer_scene *scene, const Materials &mat
         desc.visible = read_rays(*visible);
     if (const auto holdout = value.find("holdout"))
         desc.holdout = holdout->boolean();
+    const auto interior = read_interior(value);
+    if (interior)
+        desc.interior = &*interior;
 
     std::vector<double> centers, radii;
     if (const auto center = value.find("center")) {

@@ -50,6 +50,21 @@ void add_material(Input &in, glimmer_scene *scene) {
     expect(glimmer_scene_add_material(scene, &desc, &material));
 }
 
+namespace {
+
+void fill_medium(Input &in, glimmer_medium_desc &desc) {
+    glimmer_medium_init(&desc);
+    for (size_t c = 0; c < 3; ++c) {
+        desc.sigma_a[c] = in.ConsumeIntegralInRange<int>(0, 7) ? in.ConsumeProbability<double>() : in.number();
+        desc.sigma_s[c] = in.ConsumeIntegralInRange<int>(0, 7) ? in.ConsumeProbability<double>() : in.number();
+        desc.emission[c] = in.ConsumeIntegralInRange<int>(0, 7) ? in.ConsumeProbability<double>() : in.number();
+    }
+    desc.g = in.ConsumeFloatingPointInRange<double>(-1, 1);
+    in.spoil_size(desc);
+}
+
+} // namespace
+
 void add_object(Input &in, Handles &handles, glimmer_scene *scene) {
     glimmer_object_desc desc;
     glimmer_object_init(&desc);
@@ -71,6 +86,11 @@ void add_object(Input &in, Handles &handles, glimmer_scene *scene) {
         if (in.ConsumeIntegralInRange<int>(0, 31) == 0)
             desc.instance_count = SIZE_MAX;
     }
+    glimmer_medium_desc interior;
+    if (in.ConsumeBool()) {
+        fill_medium(in, interior);
+        desc.interior = &interior;
+    }
     in.spoil_size(desc);
     expect(glimmer_scene_add_object(scene, &desc));
 }
@@ -91,6 +111,11 @@ void add_spheres(Input &in, glimmer_scene *scene) {
     desc.material = in.index();
     if (in.ConsumeIntegralInRange<int>(0, 31) == 0)
         desc.count = SIZE_MAX;
+    glimmer_medium_desc interior;
+    if (in.ConsumeBool()) {
+        fill_medium(in, interior);
+        desc.interior = &interior;
+    }
     in.spoil_size(desc);
     expect(glimmer_scene_add_spheres(scene, &desc));
 }

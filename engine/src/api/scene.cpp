@@ -35,6 +35,33 @@ void check_visible(uint32_t visible, const std::string &what) {
     check_range(visible, 0, GLIMMER_RAY_ALL, what + ": visible");
 }
 
+/// The coefficients of a medium, checked.
+MediumDescription checked_medium(const double (&sigma_a)[3], const double (&sigma_s)[3], double g,
+                                 const std::string &what) {
+    for (int c = 0; c < 3; ++c) {
+        check_range(sigma_a[c], 0, 1e30, what + ": sigma_a");
+        check_range(sigma_s[c], 0, 1e30, what + ": sigma_s");
+    }
+    if (!(g > -1 && g < 1))
+        fail_argument(what + ": g is " + text(g) + "; allowed: above -1, below 1");
+    return {{sigma_a[0], sigma_a[1], sigma_a[2]}, {sigma_s[0], sigma_s[1], sigma_s[2]}, g, {}};
+}
+
+/// What a surface is filled with, checked; null: nothing.
+std::optional<MediumDescription> checked_interior(const glimmer_medium_desc *desc, const std::string &what) {
+    if (!desc)
+        return std::nullopt;
+    glimmer_medium_desc defaults;
+    glimmer_medium_init(&defaults);
+    const std::string interior = what + ": interior";
+    const glimmer_medium_desc d = checked_desc(desc, defaults, interior.c_str());
+    MediumDescription out = checked_medium(d.sigma_a, d.sigma_s, d.g, interior);
+    for (double e : d.emission)
+        check_range(e, 0, 1e30, interior + ": emission");
+    out.emission = {d.emission[0], d.emission[1], d.emission[2]};
+    return out;
+}
+
 void check_light(const glimmer_light_desc &d, const std::string &what) {
     if (uint32_t(d.type) > GLIMMER_AREA)
         fail_argument(what + ": type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 3");
@@ -98,6 +125,13 @@ glimmer_result glimmer_scene_create(glimmer_scene **scene) {
 
 void glimmer_scene_destroy(glimmer_scene *scene) {
     destroy(scene);
+}
+
+void glimmer_medium_init(glimmer_medium_desc *desc) {
+    if (!desc)
+        return;
+    *desc = {};
+    desc->struct_size = sizeof *desc;
 }
 
 void glimmer_object_init(glimmer_object_desc *desc) {
@@ -165,6 +199,7 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         out.holdout = d.holdout != 0;
         out.attributes = checked_attributes(d.attribute_count, d.attributes,
                                             {kNoRows, kNoRows, kNoRows, out.instances.size()}, what);
+        out.interior = checked_interior(d.interior, what);
         s.objects.push_back(std::move(out));
     });
 }
@@ -213,6 +248,7 @@ glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_sph
         check_visible(d.visible, what);
         out.visible = RayMask(d.visible);
         out.holdout = d.holdout != 0;
+        out.interior = checked_interior(d.interior, what);
         s.spheres.push_back(std::move(out));
     });
 }
@@ -283,13 +319,8 @@ glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma
         SceneDescription &s = open_scene(scene);
         if (!sigma_a || !sigma_s)
             fail_argument("medium: " + std::string(sigma_a ? "sigma_s" : "sigma_a") + " is null");
-        for (int c = 0; c < 3; ++c) {
-            check_range(sigma_a[c], 0, 1e30, "medium: sigma_a");
-            check_range(sigma_s[c], 0, 1e30, "medium: sigma_s");
-        }
-        if (!(g > -1 && g < 1))
-            fail_argument("medium: g is " + text(g) + "; allowed: above -1, below 1");
-        s.medium = MediumDescription{{sigma_a[0], sigma_a[1], sigma_a[2]}, {sigma_s[0], sigma_s[1], sigma_s[2]}, g};
+        s.medium =
+            checked_medium({sigma_a[0], sigma_a[1], sigma_a[2]}, {sigma_s[0], sigma_s[1], sigma_s[2]}, g, "medium");
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/accel.h"
 
+#include "geometry/embree_geometry.h"
 #include "math/affine.h"
 
 #include <cmath>
@@ -11,9 +12,6 @@ namespace glimmer {
 
 namespace {
 
-// Embree's own limit of a coordinate. Debian's build asserts it for every ray, also in an instance's space, and a
-// failed assertion ends the whole process, Blender with it.
-constexpr float kMostCoordinate = 1.844e18f;
 constexpr double kLeastVolume = 0x1p-20; // of the rows' lengths' product; below, Embree's float32 inverse is noise
 
 struct Context {
@@ -76,17 +74,6 @@ void sphere_occluded(const RTCOccludedFunctionNArguments *args) {
         ray->tfar = -kInfinity;
 }
 
-RTCRay embree_ray(const Ray &ray) {
-    RTCRay r{};
-    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
-    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-    r.tnear = kNearestHit;
-    r.tfar = ray.t_max;
-    r.time = ray.time.value;
-    r.mask = ~0u;
-    return r;
-}
-
 void set_transform(RTCGeometry geometry, unsigned step, const Instance &instance) {
     float rows[12];
     for (size_t r = 0; r < 3; ++r) {
@@ -99,6 +86,36 @@ void set_transform(RTCGeometry geometry, unsigned step, const Instance &instance
 }
 
 } // namespace
+
+void attach_instance(const EmbreeDevice &device, RTCScene scene, RTCScene mesh, const Instance &instance,
+                     const std::vector<InstanceMotion> &motions, unsigned id) {
+    RTCGeometry geometry = rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, mesh);
+    if (instance.motion == kNone) {
+        set_transform(geometry, 0, instance);
+    } else {
+        const InstanceMotion &motion = motions[instance.motion];
+        rtcSetGeometryTimeStepCount(geometry, unsigned(motion.size()));
+        for (size_t k = 0; k < motion.size(); ++k)
+            set_transform(geometry, unsigned(k), motion[k]);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+}
+
+void attach_spheres(const EmbreeDevice &device, RTCScene scene, const std::vector<Sphere> &spheres, unsigned id,
+                    RTCIntersectFunctionN intersect, RTCOccludedFunctionN occluded) {
+    RTCGeometry geometry = rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, unsigned(spheres.size()));
+    rtcSetGeometryUserData(geometry, const_cast<std::vector<Sphere> *>(&spheres)); // which is only read
+    rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, intersect);
+    rtcSetGeometryOccludedFunction(geometry, occluded);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+}
 
 float Instance::reach() const {
     Linear l;
@@ -206,35 +223,11 @@ Accel::Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motion
 /// Over what rays of a kind meet; of spheres over all, which are asked one by one.
 Bvh Accel::build(const std::vector<Bvh> &meshes, RayKind kind) {
     Bvh bvh = new_bvh(*device_);
-    for (size_t i = 0; i < instances_.size(); ++i) {
-        const Instance &instance = instances_[i];
-        if (!meets(kind, instance.visible))
-            continue;
-        RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, meshes[i].get());
-        if (instance.motion == kNone) {
-            set_transform(geometry, 0, instance);
-        } else {
-            const InstanceMotion &motion = motions_[instance.motion];
-            rtcSetGeometryTimeStepCount(geometry, unsigned(motion.size()));
-            for (size_t k = 0; k < motion.size(); ++k)
-                set_transform(geometry, unsigned(k), motion[k]);
-        }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(bvh.get(), geometry, unsigned(i));
-        rtcReleaseGeometry(geometry);
-    }
-    if (!spheres_.empty()) {
-        RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, unsigned(spheres_.size()));
-        rtcSetGeometryUserData(geometry, &spheres_);
-        rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-        rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(bvh.get(), geometry, unsigned(instances_.size()));
-        rtcReleaseGeometry(geometry);
-    }
+    for (size_t i = 0; i < instances_.size(); ++i)
+        if (meets(kind, instances_[i].visible))
+            attach_instance(*device_, bvh.get(), meshes[i].get(), instances_[i], motions_, unsigned(i));
+    if (!spheres_.empty())
+        attach_spheres(*device_, bvh.get(), spheres_, unsigned(instances_.size()), sphere_intersect, sphere_occluded);
     rtcCommitScene(bvh.get());
     device_->check("the scene");
     return bvh;

@@ -48,6 +48,12 @@ using InstanceMotion = std::vector<Instance>;
 Instance interpolate(const InstanceMotion &motion, ShutterTime time);
 /// Whether it has a volume all the way: linear interpolation of a turn of half a circle has none in its middle.
 bool is_solid(const InstanceMotion &motion);
+/// Whether a BVH whose instances can be reached from so far away takes the ray.
+inline bool starts_within(const Ray &ray, float reach) { // written so that NaN fails
+    const Vec3f &o = ray.origin, &d = ray.direction;
+    return std::abs(o.x) <= reach && std::abs(o.y) <= reach && std::abs(o.z) <= reach && std::abs(d.x) <= 2 &&
+           std::abs(d.y) <= 2 && std::abs(d.z) <= 2 && !std::isnan(ray.t_max);
+}
 
 class Accel {
   public:
@@ -89,11 +95,7 @@ class Accel {
     RayMask visible_sphere(uint32_t i) const { return visible_.empty() ? kEveryRay : visible_[i]; }
 
   private:
-    bool can_trace(const Ray &ray) const { // written so that NaN fails
-        const Vec3f &o = ray.origin, &d = ray.direction;
-        return std::abs(o.x) <= reach_ && std::abs(o.y) <= reach_ && std::abs(o.z) <= reach_ && std::abs(d.x) <= 2 &&
-               std::abs(d.y) <= 2 && std::abs(d.z) <= 2 && !std::isnan(ray.t_max);
-    }
+    bool can_trace(const Ray &ray) const { return starts_within(ray, reach_); }
     std::optional<Hit> nearest_sphere(Ray ray) const {
         std::optional<Hit> hit;
         const Vec3d origin(ray.origin), direction(ray.direction);

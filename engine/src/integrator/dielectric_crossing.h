@@ -19,12 +19,13 @@ struct DielectricCrossing {
     Frame frame;
     Vec3f outgoing; ///< `back` in the frame
 
+    /// within: what bodies are filled with.
     DielectricCrossing(const Interaction &surface, float interior_ior, const Vec3f &direction,
-                       const InteriorStack &around)
+                       const InteriorStack &around, const Medium *within)
         : beyond(around), back(-direction), frame(surface.shading_normal) {
         const bool entering = dot(back, surface.geometric_normal) > 0;
         if (entering)
-            beyond.enter(surface.body, interior_ior);
+            beyond.enter(surface.body, interior_ior, within);
         else
             beyond.leave(surface.body);
         // A ray that leaves a body which it never entered (an open mesh) comes from that body's index.

@@ -41,7 +41,7 @@ InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime tim
         ray.origin = surface.origin_towards(ray.direction);
     }
     for (size_t i = crossings.size(); i-- > 0;)
-        stack.enter(crossings[i].body, crossings[i].ior);
+        stack.enter(crossings[i].body, crossings[i].ior, scene.within_glass());
     return stack;
 }
 

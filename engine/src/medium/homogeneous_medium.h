@@ -43,7 +43,8 @@ struct HomogeneousMedium {
     // As Medium asks for them; the place makes no difference.
     Rgb transmittance(const Ray &, float t) const { return transmittance(t); }
     Rgb transmittance(const Ray &, float t, const Ray &, float t_second) const { return transmittance(t + t_second); }
-    Rgb scattering(const Vec3f &) const { return sigma_s; }
+    Rgb scattering(const Ray &, float) const { return sigma_s; }
+    float least_absorbed(const Ray &, float t) const { return std::exp(-optical_depth(least_absorption(), t)); }
 
     float least_extinction() const { return std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b)); }
     float least_scattering_extinction() const {

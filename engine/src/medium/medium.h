@@ -3,6 +3,7 @@
 // place: along a ray, from its origin on.
 #pragma once
 
+#include "medium/bounded_media.h"
 #include "medium/homogeneous_medium.h"
 #include "medium/phase.h"
 
@@ -17,9 +18,13 @@ class Medium {
     }
 
   public:
-    using Kind = std::variant<HomogeneousMedium>;
+    using Kind = std::variant<HomogeneousMedium, BoundedMedia>;
 
     Medium(const HomogeneousMedium &medium) : kind_(medium) {}
+    Medium(BoundedMedia media) : kind_(std::move(media)) {}
+
+    /// The media within surfaces, which differ from place to place; null where one fills all space.
+    const BoundedMedia *bounded() const { return std::get_if<BoundedMedia>(&kind_); }
 
     bool scatters() const {
         return visit([](const auto &m) { return m.scatters(); });
@@ -40,9 +45,13 @@ class Medium {
     Rgb transmittance(const Ray &first, float t, const Ray &second, float t_second) const {
         return visit([&](const auto &m) { return m.transmittance(first, t, second, t_second); });
     }
-    /// By length: sigma_s.
-    Rgb scattering(const Vec3f &x) const {
-        return visit([&](const auto &m) { return m.scattering(x); });
+    /// By length, t along the ray: sigma_s.
+    Rgb scattering(const Ray &ray, float t) const {
+        return visit([&](const auto &m) { return m.scattering(ray, t); });
+    }
+    /// Transmittance as far as absorption alone goes, of the channel that is absorbed least.
+    float least_absorbed(const Ray &ray, float t) const {
+        return visit([&](const auto &m) { return m.least_absorbed(ray, t); });
     }
 
     /// See the functions of these names in homogeneous_medium.h.
@@ -84,10 +93,6 @@ class Medium {
     /// How fast light scattered many times dies away, in the channel that carries it furthest; 0 where none scatters.
     float effective_attenuation() const {
         return visit([](const auto &m) { return m.effective_attenuation(); });
-    }
-    /// Of the channel that absorbs least.
-    float least_absorption() const {
-        return visit([](const auto &m) { return m.least_absorption(); });
     }
     /// A bound on the chance that light `distance` away from the middle of a sphere of that radius comes back to it, if
     /// the medium has no end.

@@ -56,6 +56,33 @@ std::shared_ptr<const Mesh> SceneBuilder::without_absent(const ObjectDescription
     return rest->triangles.empty() ? nullptr : rest;
 }
 
+bool SceneBuilder::may_shine_anywhere(const ObjectDescription &object) const {
+    return std::ranges::any_of(object.materials, [&](uint32_t m) { return material_may_shine(m); });
+}
+
+std::optional<Instance> SceneBuilder::place(const ObjectDescription &object, size_t i, const Mesh &mesh,
+                                            std::vector<InstanceMotion> &motions) {
+    const Affine &a = object.instances[i];
+    Instance instance{};
+    instance.mesh = &mesh;
+    if (!instance.place(a.linear, a * mesh.center - origin_))
+        return std::nullopt;
+    if (!object.moves())
+        return instance;
+    InstanceMotion motion;
+    bool placed = true;
+    for (const std::vector<Affine> &step : object.motion) {
+        motion.push_back(instance);
+        placed &= motion.back().place(step[i].linear, step[i] * mesh.center - origin_);
+    }
+    if (placed && is_solid(motion) && !may_shine_anywhere(object)) {
+        instance.motion = uint32_t(motions.size());
+        motions.push_back(std::move(motion));
+        return instance;
+    }
+    return placed ? motion[motion.size() / 2] : instance;
+}
+
 void SceneBuilder::use(uint32_t index) {
     const Material &material = scene_.materials[index];
     used_[index] = true;
@@ -84,46 +111,36 @@ void SceneBuilder::build_geometry() {
     std::vector<InstanceMotion> motions;
     size_t flat = 0, folding = 0, shining = 0;
     for (const ObjectDescription &object : description_.objects) {
+        add_boundaries(object);
         std::shared_ptr<const Mesh> mesh = without_absent(object);
         if (!mesh) {
-            ++absent_objects_;
+            absent_objects_ += !object.interior;
             continue;
         }
         for (uint32_t material : object.materials)
             use(material);
-        const bool shines = std::ranges::any_of(object.materials, [&](uint32_t m) { return material_may_shine(m); });
+        const bool shines = may_shine_anywhere(object);
         const auto index = uint32_t(scene_.object_materials.size());
         scene_.object_materials.push_back(object.materials);
         for (size_t i = 0; i < object.instances.size(); ++i) {
-            const Affine &a = object.instances[i];
-            Instance instance;
-            instance.mesh = mesh.get();
-            if (!instance.place(a.linear, a * mesh->center - origin_)) {
+            auto instance = place(object, i, *mesh, motions);
+            if (!instance) {
                 ++flat; // no volume to enter and no inverse for the ray: as good as not there
                 continue;
             }
-            instance.object = index;
-            instance.visible = object.visible;
-            instance.holdout = object.holdout;
-            instance.object_index =
+            if (object.moves() && instance->motion == kNone)
+                ++(shines ? shining : folding);
+            instance->object = index;
+            instance->visible = object.visible;
+            instance->holdout = object.holdout;
+            instance->object_index =
                 object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
-            if (object.moves()) {
-                InstanceMotion motion;
-                bool placed = true;
-                for (const std::vector<Affine> &step : object.motion) {
-                    motion.push_back(instance);
-                    placed &= motion.back().place(step[i].linear, step[i] * mesh->center - origin_);
+            if (instance->motion != kNone)
+                for (Instance &step : motions[instance->motion]) {
+                    step.object = index, step.object_index = instance->object_index;
+                    step.visible = object.visible, step.holdout = object.holdout;
                 }
-                if (placed && is_solid(motion) && !shines) {
-                    instance.motion = uint32_t(motions.size());
-                    motions.push_back(std::move(motion));
-                } else {
-                    ++(shines ? shining : folding);
-                    if (placed)
-                        instance = motion[motion.size() / 2];
-                }
-            }
-            instances.push_back(instance);
+            instances.push_back(*instance);
             object_places_.push_back({size_t(&object - description_.objects.data()), i});
         }
         scene_.meshes_.push_back(std::move(mesh));
@@ -144,8 +161,9 @@ void SceneBuilder::build_geometry() {
     std::vector<bool> holdouts;
     for (const SpheresDescription &group : description_.spheres) {
         const Material &material = scene_.materials[group.material];
+        add_boundaries(group);
         if (material.null) {
-            ++absent_objects_;
+            absent_objects_ += !group.interior;
             continue;
         }
         use(group.material);

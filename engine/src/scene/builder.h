@@ -27,8 +27,8 @@ class SceneBuilder {
 
     void build_camera_and_film(); // sets the origin: everything after it is relative to the camera
     void build_materials();
-    void build_medium();
     void build_geometry();
+    void build_media();   // after the geometry, which says what encloses them
     void build_shaders(); // materials that vary; before the lights, which look at their emission
     void build_lights();
     void build_bounds();
@@ -47,6 +47,15 @@ class SceneBuilder {
     bool material_may_shine(uint32_t material) const; ///< or a part of it
     void note_flags(const LightFlags &flags, RayMask usual);
     void note_visibility(RayMask visible, bool holdout);
+    /// The i-th instance of an object, with its motion, which is added to `motions`. Nothing where it would be too flat
+    /// for a ray to be carried there. mesh: the object's, or a part of it.
+    std::optional<Instance> place(const ObjectDescription &object, size_t i, const Mesh &mesh,
+                                  std::vector<InstanceMotion> &motions);
+    bool may_shine_anywhere(const ObjectDescription &object) const;
+    /// Notes that the object's instances, or the spheres, enclose a medium.
+    void add_boundaries(const ObjectDescription &object);
+    void add_boundaries(const SpheresDescription &group);
+    uint32_t add_interior(const MediumDescription &medium);
     std::shared_ptr<const Mesh> without_absent(const ObjectDescription &object) const;
     void add_sphere_lights(LightList &lights) const;
     void add_mesh_light(LightList &lights) const;
@@ -62,6 +71,12 @@ class SceneBuilder {
         size_t object, instance;
     };
     std::vector<ObjectPlace> object_places_;
+    /// What encloses media: the surfaces, and by surface the number of its medium.
+    std::vector<Instance> boundary_instances_;
+    std::vector<InstanceMotion> boundary_motions_;
+    std::vector<Sphere> boundary_spheres_;
+    std::vector<uint32_t> instance_media_, sphere_media_;
+    std::vector<InteriorMedium> media_;
     std::set<std::shared_ptr<const Texture>> textures_; ///< that programs look up
     std::vector<bool> used_;                            ///< materials that something is made of
     size_t black_lights_ = 0, absent_objects_ = 0;

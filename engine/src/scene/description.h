@@ -22,6 +22,12 @@ struct Image {
     std::vector<Rgb> pixels; ///< top row first
 };
 
+struct MediumDescription {
+    Vec3d sigma_a, sigma_s;
+    double g = 0;
+    Vec3d emission;
+};
+
 struct ObjectDescription {
     std::string name;
     std::shared_ptr<const Mesh> mesh;
@@ -37,6 +43,7 @@ struct ObjectDescription {
     RayMask visible = kEveryRay;
     bool holdout = false;
     std::vector<MeshAttribute> attributes; ///< a row an instance
+    std::optional<MediumDescription> interior;
 };
 
 struct SpheresDescription {
@@ -47,6 +54,7 @@ struct SpheresDescription {
     uint32_t object_index = 0;
     RayMask visible = kEveryRay;
     bool holdout = false;
+    std::optional<MediumDescription> interior;
 };
 
 struct EnvironmentDescription {
@@ -59,11 +67,6 @@ struct EnvironmentDescription {
 struct SkySunDescription {
     Vec3d travels;    ///< the light's direction
     double angle = 0; ///< full, in degrees
-};
-
-struct MediumDescription {
-    Vec3d sigma_a, sigma_s;
-    double g = 0;
 };
 
 /// A plain value once its strings have been copied out.

@@ -12,16 +12,6 @@ namespace glimmer {
 SceneBuilder::SceneBuilder(const SceneDescription &description, Scene &scene, uint32_t threads)
     : description_(description), scene_(scene), threads_(threads) {}
 
-void SceneBuilder::build_medium() {
-    if (!description_.medium)
-        return;
-    const MediumDescription &m = *description_.medium;
-    const auto rgb = [](const Vec3d &v) { return Rgb(float(v.x), float(v.y), float(v.z)); };
-    const HomogeneousMedium medium(rgb(m.sigma_a), rgb(m.sigma_s), float(m.g));
-    if (!is_black(medium.sigma_t))
-        scene_.medium = Medium(medium);
-}
-
 /// A sphere around all that a path can meet or be lit by, infinite lights apart.
 void SceneBuilder::build_bounds() {
     Vec3d low(HUGE_VAL, HUGE_VAL, HUGE_VAL), high = -low;
@@ -45,6 +35,8 @@ void SceneBuilder::build_bounds() {
     for (uint32_t i = 0; i < scene_.lights.size(); ++i)
         if (const LightBound &b = scene_.lights.bound(i); !b.infinite)
             add(Vec3d(b.center), double(b.radius));
+    if (const BoundedMedia *media = scene_.medium ? scene_.medium->bounded() : nullptr)
+        add(Vec3d(media->bounds_center()), double(media->bounds_radius()));
     if (!(low.x <= high.x))
         return;
     scene_.bounds_center = Vec3f((low + high) * 0.5);
@@ -60,7 +52,7 @@ void SceneBuilder::list_left_out() {
         out.push_back("fog that does not scatter: no distance sampling");
     if (scene_.medium && scene_.medium->monochromatic())
         out.push_back("grey fog: one channel of transmittance");
-    if (scene_.medium && scene_.medium->phase().g == 0)
+    if (scene_.medium && !scene_.medium->bounded() && scene_.medium->phase().g == 0)
         out.push_back("isotropic fog: no phase function");
     if (!scene_.camera.has_lens())
         out.push_back("no depth of field: no lens sampling");
@@ -85,8 +77,8 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
     SceneBuilder builder(description, *this, threads);
     builder.build_camera_and_film();
     builder.build_materials();
-    builder.build_medium();
     builder.build_geometry();
+    builder.build_media();
     builder.build_shaders();
     builder.build_lights();
     builder.build_bounds();
@@ -96,7 +88,7 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
             {GLIMMER_WARNING_ENDLESS_FOG,
              "the fog has no end, so the environment and suns behind it are exactly black; light the scene with "
              "lights of a place and size, or leave out the fog"});
-    if (lights.size() == 0)
+    if (lights.size() == 0 && !(medium && medium->bounded() && medium->bounded()->emits()))
         warnings.push_back({GLIMMER_WARNING_NO_LIGHT, "nothing in the scene shines: the picture will be black"});
     bytes += materials.bytes() + accel->bytes();
     for (const auto &mesh : std::set(meshes_.begin(), meshes_.end())) // objects may share one

@@ -46,9 +46,11 @@ class Scene {
             return accel->instances()[hit.instance].holdout;
         return !sphere_holdouts.empty() && sphere_holdouts[hit.primitive];
     }
-    std::optional<Medium> medium; ///< around all bodies
+    std::optional<Medium> medium;       ///< around all bodies of glass
+    std::optional<Medium> glass_medium; ///< in them: what their interiors hold, without what fills all space
     /// The same, or null.
     const Medium *outside() const { return medium ? &*medium : nullptr; }
+    const Medium *within_glass() const { return glass_medium ? &*glass_medium : nullptr; }
     std::unique_ptr<Accel> accel;
     LightSet lights;
     bool moves = false;            ///< anything, while the shutter is open

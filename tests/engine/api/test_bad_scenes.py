@@ -2,7 +2,7 @@
 """Bad values in the description of a scene: each is named in one line, and nothing is added."""
 
 import ctypes
-from ctypes import byref, c_double, c_float, c_uint32, c_void_p
+from ctypes import addressof, byref, c_double, c_float, c_uint32, c_void_p
 from typing import Any
 
 import numpy as np
@@ -232,6 +232,27 @@ def test_bad_environment_and_medium(scene: c_void_p) -> None:
         refused(library.glimmer_scene_set_medium(scene, good, bad, 0), ARGUMENT, "sigma_s")
     for g in (-1.0, 1.0, NAN, 7.0):
         refused(library.glimmer_scene_set_medium(scene, good, good, g), ARGUMENT, "g")
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"sigma_a": (0, -1, 0)}, "sigma_a"),
+        ({"sigma_s": (0, 0, NAN)}, "sigma_s"),
+        ({"emission": (INFINITY, 0, 0)}, "emission"),
+        ({"g": 1}, "g"),
+        ({"struct_size": 3}, "struct_size"),
+    ],
+)
+def test_bad_interior(scene: c_void_p, changes: dict[str, Any], word: str) -> None:
+    medium = changed(engine().init(structs.MediumDesc), changes)
+    add_material(scene)
+    centers, radii = (c_double * 3)(), (c_double * 1)(1)
+    spheres = engine().init(structs.SpheresDesc)
+    spheres.name, spheres.count, spheres.radius_count = b"culprit", 1, 1
+    spheres.centers, spheres.radii = addressof(centers), addressof(radii)
+    spheres.interior = addressof(medium)
+    refused(functions().glimmer_scene_add_spheres(scene, byref(spheres)), ARGUMENT, "interior", word, "culprit")
 
 
 @pytest.mark.parametrize(

@@ -250,7 +250,16 @@ BAD = [
     ),
     Bad(("objects", 1, "instances"), [[1]], "objects[1].instances: a list of 1 is not a text in double quotes"),
     Bad(("objects", 1, "instances"), "hex.ply", 'objects[1].instances: "hex.ply": is not a .npy file'),
+    Bad(("objects", 0, "interior"), 1, "objects[0].interior: 1 is not an object {...}"),
+    Bad(("objects", 0, "interior"), {"sigma_s": -1}, "objects[0].interior.sigma_s: -1 is not a number of 0 or more"),
+    Bad(("objects", 0, "interior"), {"g": -1}, "objects[0].interior.g: -1 is not a number above -1 and below 1"),
+    Bad(
+        ("objects", 0, "interior"),
+        {"density": 1},
+        'objects[0].interior: unknown key "density"; allowed here are sigma_a, sigma_s, g, emission',
+    ),
     # spheres
+    Bad(("spheres", 0, "interior"), {"emission": [1]}, "spheres[0].interior.emission: "),
     Bad(("spheres", 0, "radius"), 0, "spheres[0].radius: 0 is not a number above 0"),
     Bad(("spheres", 0, "radius"), -4, "spheres[0].radius: -4 is not a number above 0"),
     Bad(("spheres", 0, "center"), REMOVED, "spheres[0]: needs either center or centers"),

@@ -110,6 +110,14 @@ FOG_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
 ]
 
 
+INTERIOR = {"sigma_a": 0.1, "sigma_s": 0.2, "g": 0.1, "emission": 0.1}
+INTERIOR_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
+    ((kind, 0, "interior", key), value)
+    for kind in ("objects", "spheres")
+    for key, value in (("sigma_a", 0.5), ("sigma_s", [0.1, 0.2, 0.5]), ("g", -0.5), ("emission", 0))
+]
+
+
 ORTHOGRAPHIC_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
     (("camera", "width"), 5),
     *(meaning for meaning in MEANINGS if meaning[0][0] == "camera" and meaning[0][1] != "fov_x"),
@@ -138,6 +146,14 @@ def test_every_value_of_an_orthographic_camera_means_something(tmp_path: Path) -
     del base["medium"], base["camera"]["fov_x"]
     base["camera"].update(type="orthographic", width=8)
     check_meanings(tmp_path, base, ORTHOGRAPHIC_MEANINGS)
+
+
+def test_every_value_of_an_interior_means_something(tmp_path: Path) -> None:
+    base = every_key(tmp_path)
+    base["film"].update(width=32, height=24, crop=[0, 0, 32, 24])
+    base["objects"][0] = {"mesh": "tetra", "material": "gone", "interior": dict(INTERIOR)}
+    base["spheres"][0].update(material="gone", interior=dict(INTERIOR))
+    check_meanings(tmp_path, base, INTERIOR_MEANINGS)
 
 
 def check_meanings(folder: Path, base: Scene, meanings: list[tuple[tuple[str | int, ...], Any]]) -> None:

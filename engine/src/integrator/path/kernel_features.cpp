@@ -6,6 +6,7 @@ namespace glimmer {
 KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares) {
     KernelFeatures f;
     f.medium = scene.medium.has_value();
+    f.bounded_media = f.medium && scene.medium->bounded();
     f.medium_walks = f.medium && scene.medium->scatters() && !shares;
     f.surfaces = scene.has_surfaces;
     f.transmission = scene.has_transmission;

@@ -16,6 +16,7 @@ namespace glimmer {
 
 struct KernelFeatures {
     bool medium = false;
+    bool bounded_media = false;   ///< media within surfaces, or that shine; else one fills all space
     bool medium_walks = false;    ///< the medium scatters, and paths walk through it by themselves: no light vertices
     bool surfaces = false;        ///< surfaces that scatter light, not only emissive spheres
     bool transmission = false;    ///< surfaces that scatter light to their other side; glass among them
@@ -35,8 +36,9 @@ struct FeatureText {
     const char *name; ///< for benchmarks
     const char *left_out;
 };
-inline constexpr std::array<FeatureText, 9> kFeatureTexts{{
+inline constexpr std::array<FeatureText, 10> kFeatureTexts{{
     {&KernelFeatures::medium, "medium", "no fog: no distance sampling, no transmittance"},
+    {&KernelFeatures::bounded_media, "bounded media", ""},
     {&KernelFeatures::medium_walks, "walks in the medium", ""},
     {&KernelFeatures::surfaces, "surfaces", "no surface that scatters: no scattering at surfaces"},
     {&KernelFeatures::transmission, "transmission", "no glass: no search for the bodies around the camera"},
@@ -47,7 +49,7 @@ inline constexpr std::array<FeatureText, 9> kFeatureTexts{{
     {&KernelFeatures::visibility, "ray visibility", ""},
     {&KernelFeatures::estimator_flags, "estimator flags", ""},
 }};
-inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true, true};
+inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true, true, true};
 
 /// Whether a kernel with the features `has` can render what needs `needed`.
 constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {

@@ -15,9 +15,14 @@ template <KernelFeatures F>
 void PathSample<F>::sample_lights_along(const State &state, float end, const Medium &medium, bool split) {
     if (scene().lights.size() == 0)
         return;
+    const RayInterval range = scattering_range(state, end, medium);
+    if (!(range.begin < range.end))
+        return;
     const bool camera = state.is_camera_segment(), several = state.seen_directly();
-    const HenyeyGreenstein phase = medium.phase();
-    const Vec3f &origin = state.ray.origin, &direction = state.ray.direction;
+    HenyeyGreenstein phase = medium.phase();
+    const Vec3f &direction = state.ray.direction;
+    const Vec3f origin = F.bounded_media ? state.ray.origin + direction * range.begin : state.ray.origin;
+    const float length = range.end - range.begin;
     float probability = 1;                  // of sampling at all
     if (!several && has_light_vertices()) { // short segments between surfaces scatter next to nothing
         probability = survival((Rgb(1) - medium.transmittance(state.ray, end)) * state.beta, state.rr_scale, origin,
@@ -26,26 +31,29 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
             return;
     }
     for (uint32_t i = 0; i < choices(several); ++i) {
-        const LightChoice choice = choose(i, several, origin, direction, end);
+        const LightChoice choice = choose(i, several, origin, direction, length);
         if (is_beyond_bounces(choice.index, state.depth))
             continue;
         if (scene().lights.bound(choice.index).infinite)
-            continue; // nothing comes through an endless medium
-        const EquiangularTable table = equiangular_table(choice.index, origin, direction, end);
+            continue; // of use where a path scatters, if it comes through the medium at all
+        const EquiangularTable table = equiangular_table(choice.index, origin, direction, length);
         const DistanceSample at = table.sample(
             camera ? sampler_.stratified_1d(dimension(Dimension::segment_distance, i)) : sampler_.next_1d());
         if (!(at.pdf > 0) || !(at.t < kInfinity))
             continue;
         const Vec3f x = origin + direction * at.t;
+        const float t = range.begin + at.t;
         const auto light =
             sample_light(choice.index, x,
                          camera ? sampler_.stratified_2d(dimension(Dimension::segment_light, i)) : sampler_.next_2d());
         if (!light || !lights_medium(*light))
             continue;
+        Rgb scattering = medium.scattering(state.ray, t);
+        if constexpr (F.bounded_media)
+            scattering *= choose_phase(medium, state.ray, t, phase);
         const float p_phase = phase.eval(direction, light->direction);
         const Rgb unshadowed =
-            medium.scattering(x) *
-            medium.transmittance(state.ray, at.t, {x, light->direction, state.ray.time}, light->distance) *
+            scattering * medium.transmittance(state.ray, t, {x, light->direction, state.ray.time}, light->distance) *
             light->radiance * (p_phase / light->pdf / at.pdf / choice.probability);
         if (is_black(unshadowed))
             continue;
@@ -54,11 +62,11 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
             continue;
         float weight = 1;
         if (!light->delta && !has_light_vertices()) { // nothing else meets lights from gather points
-            float p_distance = split ? medium.collision_pdf(state.ray, state.beta, end, at.t)
-                                     : medium.free_flight_pdf(state.ray, state.beta, at.t);
+            float p_distance = split ? medium.collision_pdf(state.ray, state.beta, end, t)
+                                     : medium.free_flight_pdf(state.ray, state.beta, t);
             if (p_distance > 0) { // times the probability that a path which scatters there survives roulette
-                const Rgb at_collision =
-                    state.beta * medium.scattering(x) * medium.transmittance(state.ray, at.t) * (1 / p_distance);
+                const Rgb at_collision = state.beta * medium.scattering(state.ray, t) *
+                                         medium.transmittance(state.ray, t) * (1 / p_distance);
                 p_distance *= survival(at_collision, state.rr_scale, x, kRouletteScaleInMedium);
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
@@ -96,25 +104,35 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
     State next = state;
     next.beta *= weight;
     const Vec3f x = state.ray.origin + state.ray.direction * t;
+    HenyeyGreenstein phase = medium.phase();
+    if constexpr (F.bounded_media)
+        next.beta *= choose_phase(medium, state.ray, t, phase);
     const bool along = samples_lights_along(state);
-    if (!along)
-        sample_light_in_medium(next, x, medium, true);
-    else // Roulette belongs to the density by which light is met by chance. Without it, a thin medium would leave a
-         // part of the light to one sample in millions.
-        pdf *= survival(next.beta, next.rr_scale, x, kRouletteScaleInMedium);
+    float spared = 1;
+    if (!along) {
+        sample_light_in_medium(next, x, medium, phase, true);
+    } else { // Roulette belongs to the density by which light is met by chance. Without it, a thin medium would leave a
+             // part of the light to one sample in millions.
+        spared = survival(next.beta, next.rr_scale, x, kRouletteScaleInMedium);
+        pdf *= spared;
+        if (is_lit_from_infinity(medium))
+            sample_infinite_lights(next, x, medium, phase, spared);
+    }
     if (!survives(next, x, kRouletteScaleInMedium))
         return;
     const bool camera = state.is_camera_segment();
-    const PhaseSample s = medium.phase().sample(state.ray.direction,
-                                                camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction))
-                                                       : sampler_.next_2d());
+    const PhaseSample s =
+        phase.sample(state.ray.direction,
+                     camera ? sampler_.stratified_2d(dimension(Dimension::medium_direction)) : sampler_.next_2d());
+    const RayInterval range = scattering_range(state, end, medium);
+    const Vec3f origin = F.bounded_media ? state.ray.origin + state.ray.direction * range.begin : state.ray.origin;
     next.ray = {x, s.direction, state.ray.time};
     next.previous = {ScatterKind::medium,
                      state.seen_directly(),
                      along,
                      s.pdf,
                      x,
-                     {state.ray.origin, state.ray.direction, end, t, pdf}};
+                     {origin, state.ray.direction, range.end - range.begin, t - range.begin, pdf, spared}};
     next.passed = {};
     set_kind(next, RayKind::volume);
     ++next.depth;
@@ -128,14 +146,48 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
 }
 
 template <KernelFeatures F>
-void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, const Medium &medium, bool by_chance) {
+Rgb PathSample<F>::choose_phase(const Medium &medium, const Ray &ray, float t, HenyeyGreenstein &phase) {
+    const BoundedMedia *bounded = medium.bounded();
+    if (!bounded)
+        return Rgb(1);
+    const ScatteringPoint point = bounded->scattering_point(ray, t, sampler_);
+    phase = point.phase;
+    return point.weight;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::sample_infinite_lights(const State &state, const Vec3f &x, const Medium &medium,
+                                           const HenyeyGreenstein &phase, float survival) {
+    const std::vector<uint32_t> &lights = scene().lights.infinite();
+    const float share = infinite_light_share();
+    const auto n = share < 1 ? size_t(1) : lights.size();
+    for (size_t i = 0; i < n; ++i) {
+        const size_t picked =
+            share < 1 ? std::min(size_t(sampler_.next_1d() * float(lights.size())), lights.size() - 1) : i;
+        const auto light = sample_light(lights[picked], x, sampler_.next_2d());
+        if (!light || !lights_medium(*light) || is_beyond_bounces(lights[picked], state.depth))
+            continue;
+        const float p_phase = phase.eval(state.ray.direction, light->direction);
+        const Rgb unshadowed = medium.transmittance({x, light->direction, state.ray.time}, light->distance) *
+                               light->radiance * (p_phase / light->pdf / share);
+        if (is_black(unshadowed))
+            continue;
+        const float weight = light->delta ? 1 : balance(share * light->pdf, p_phase * survival);
+        aov_of_scattering(state, PathClass::medium) +=
+            state.beta * unshadowed * visibility(x, *light, state.ray.time) * weight;
+    }
+}
+
+template <KernelFeatures F>
+void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, const Medium &medium,
+                                           const HenyeyGreenstein &phase, bool by_chance) {
     if (scene().lights.size() == 0)
         return;
     const LightChoice choice = choose(0, false, x);
     const auto light = sample_light(choice.index, x, sampler_.next_2d());
     if (!light || !lights_medium(*light) || is_beyond_bounces(choice.index, state.depth))
         return;
-    const float p_phase = medium.phase().eval(state.ray.direction, light->direction);
+    const float p_phase = phase.eval(state.ray.direction, light->direction);
     const Rgb unshadowed = medium.transmittance({x, light->direction, state.ray.time}, light->distance) *
                            light->radiance * (p_phase / light->pdf / choice.probability);
     if (is_black(unshadowed))

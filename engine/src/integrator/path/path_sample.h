@@ -16,6 +16,7 @@
 #include "integrator/roulette.h"
 #include "integrator/visibility.h"
 #include "light/equiangular_table.h"
+#include "medium/phase.h"
 #include "sampling/dimensions.h"
 
 #include <cmath>
@@ -80,10 +81,6 @@ class PathSample {
     const Medium *medium_of(const State &state) const {
         return F.medium ? state.interior.medium(scene().outside()) : nullptr;
     }
-    /// Transmittance as far as absorption alone goes, of the channel that is absorbed least.
-    static float least_absorbed(const Medium &medium, float t) {
-        return std::exp(-optical_depth(medium.least_absorption(), t));
-    }
 
     // The AOV that light counts for
 
@@ -118,6 +115,8 @@ class PathSample {
     /// distance of the point from where the camera's ray starts, 0 where the point is not on that ray and so no splats
     /// count.
     bool gather(State &state, float points, float t, float roulette_scale);
+    /// Adds the light that arrives at a gather point straight from infinitely far. certain: the camera sees the point.
+    void light_gather_point_from_infinity(const State &at, const Medium &medium, bool certain);
     /// Follows a compensation ray to the next vertex.
     void compensate(State &state, const Medium &medium);
 
@@ -196,6 +195,10 @@ class PathSample {
     static bool lights_medium(const LightSample &light) {
         return !F.visibility || light.visible & mask_of(RayKind::volume);
     }
+    /// Whether light from infinitely far reaches the medium at all: nothing comes through an endless one.
+    bool is_lit_from_infinity(const Medium &medium) const {
+        return F.bounded_media && medium.bounded() && !scene().lights.infinite().empty();
+    }
     EquiangularTable equiangular_table(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
         const LightBound &b = scene().lights.bound(light);
         return {*scene().medium, origin, direction, end, b.center, b.radius};
@@ -215,7 +218,29 @@ class PathSample {
     void scatter_in_medium(const State &state, float end, const Medium &medium, float t, const Rgb &weight, float pdf);
     /// Adds the light of one light at a scattering point. by_chance: the path that goes on from there may meet the same
     /// light by chance, so both are weighted against each other.
-    void sample_light_in_medium(const State &state, const Vec3f &x, const Medium &medium, bool by_chance);
+    void sample_light_in_medium(const State &state, const Vec3f &x, const Medium &medium, const HenyeyGreenstein &phase,
+                                bool by_chance);
+    /// Adds the light of the lights that are infinitely far away at a scattering point: along the segment there is
+    /// nothing to choose the place by. survival: of the path that goes on, which may meet them by chance.
+    void sample_infinite_lights(const State &state, const Vec3f &x, const Medium &medium, const HenyeyGreenstein &phase,
+                                float survival);
+    /// How many of them are sampled there, of how many that there are.
+    float infinite_light_share() const {
+        const size_t n = scene().lights.infinite().size();
+        return n <= tuning::kInfiniteLightsSampledEach ? 1.0f : 1 / float(n);
+    }
+    /// Sets the phase function of a point of a ray where a path scatters: of one of the media there, chosen at random.
+    /// Returns the weight of the choice.
+    Rgb choose_phase(const Medium &medium, const Ray &ray, float t, HenyeyGreenstein &phase);
+    /// The part of a segment on which anything scatters.
+    static RayInterval scattering_range(const State &state, float end, const Medium &medium) {
+        if constexpr (F.bounded_media)
+            if (const BoundedMedia *bounded = medium.bounded())
+                return bounded->scattering_range(state.ray, end);
+        return {0, end};
+    }
+    /// Adds what the media along a segment emit by themselves.
+    void add_medium_emission(const State &state, float end, const Medium *medium);
 
     // Surfaces
 
@@ -232,8 +257,7 @@ class PathSample {
         bool bounds_interior = false;                            ///< what is transmitted enters a body or leaves it
         [[no_unique_address]] typename State::Interior beyond{}; ///< the bodies around it then
     };
-    static std::optional<OrientedSurface> orient(const State &state, const Interaction &surface,
-                                                 const Shading &shading);
+    std::optional<OrientedSurface> orient(const State &state, const Interaction &surface, const Shading &shading) const;
     /// Whether a sampled direction is on the side of the true surface that it claims: a shading normal may promise what
     /// cannot be kept.
     static bool is_on_side(const BsdfSample &s, const Vec3f &wi, const Vec3f &geometric);

@@ -35,6 +35,7 @@ struct PreviousSegment {
     float end = 0;          ///< its length
     float distance = 0;     ///< of the scattering point from the origin
     float distance_pdf = 0; ///< per length, roulette included
+    float survival = 1;     ///< the probability that roulette let the path go on from there
 };
 
 /// The vertex where the path's segment began, as multiple importance sampling needs it when the segment meets a light.

@@ -21,6 +21,8 @@ void PathSample<F>::follow(State &state) {
     const float end = hit ? hit->t : kInfinity;
 
     add_lamps(state, end, medium);
+    if constexpr (F.bounded_media)
+        add_medium_emission(state, end, medium);
     std::optional<Interaction> surface;
     Shading shading;
     if (hit && is_held_out(state, *hit)) {
@@ -70,7 +72,7 @@ void PathSample<F>::follow(State &state) {
     if (!surface)
         return;
     if (medium && state.seen_directly()) // absorption before everything dims the picture evenly: no reason to end paths
-        state.rr_scale *= least_absorbed(*medium, end);
+        state.rr_scale *= medium->least_absorbed(state.ray, end);
     if (passes_through(state, *surface, shading, end, false)) {
         state.emission_mode = emission_mode;
         return push(state);
@@ -138,6 +140,13 @@ void PathSample<F>::add_lamps(const State &state, float end, const Medium *mediu
 }
 
 template <KernelFeatures F>
+void PathSample<F>::add_medium_emission(const State &state, float end, const Medium *medium) {
+    const BoundedMedia *bounded = medium ? medium->bounded() : nullptr;
+    if (bounded && bounded->emits() && state.emission_mode != EmissionMode::only) // no light sampling finds it
+        aov_of_emission(state) += state.beta * bounded->emitted(state.ray, end);
+}
+
+template <KernelFeatures F>
 void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
     if (!F.other_lights)
         return;
@@ -169,8 +178,11 @@ float PathSample<F>::emission_mis_weight(const State &state, uint32_t light, con
         if (previous.kind == ScatterKind::surface)
             return balance(previous.pdf,
                            expected_samples(previous.several_lights, light, previous.position) * at_light);
-        if (scene().lights.bound(light).infinite)
+        if (scene().lights.bound(light).infinite && previous.along_segment) {
+            if constexpr (F.bounded_media && F.medium_walks) // else there is no end that it could come through
+                return balance(previous.pdf * previous.segment.survival, infinite_light_share() * at_light);
             return 1;
+        }
         if (!previous.along_segment)
             return balance(previous.pdf, expected_samples(false, light, previous.position) * at_light);
         if constexpr (F.medium_walks) {

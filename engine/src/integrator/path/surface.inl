@@ -23,11 +23,12 @@ void PathSample<F>::note_first_surface(const Interaction &surface, ShutterTime t
 }
 
 template <KernelFeatures F>
-auto PathSample<F>::orient(const State &state, const Interaction &surface, const Shading &shading)
+auto PathSample<F>::orient(const State &state, const Interaction &surface, const Shading &shading) const
     -> std::optional<OrientedSurface> {
     if constexpr (F.transmission)
         if (shading.interior_ior > 0) {
-            const DielectricCrossing crossing(surface, shading.interior_ior, state.ray.direction, state.interior);
+            const DielectricCrossing crossing(surface, shading.interior_ior, state.ray.direction, state.interior,
+                                              scene().within_glass());
             return OrientedSurface{crossing.frame, crossing.geometric, crossing.outgoing, crossing.eta,
                                    true,           crossing.beyond};
         }

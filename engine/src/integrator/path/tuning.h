@@ -28,6 +28,9 @@ static_assert(kMaxLightsSampledEach <= dimension_count(Dimension::segment_distan
                   kMaxLightsSampledEach <= dimension_count(Dimension::surface_light),
               "every light of a sample needs numbers of its own");
 
+/// Most lights infinitely far away that are all sampled where a path scatters in a medium; of more, one is. Chosen.
+inline constexpr uint32_t kInfiniteLightsSampledEach = 4;
+
 /// Expected number of shadow rays at a surface that the camera does not see first, where every light is sampled: each
 /// light gets its ray with a probability that follows its part of the sum. Chosen.
 GLIMMER_TUNABLE_CONSTANT(float, kShadowRaysBeyondFirstSurface, 2);

@@ -26,10 +26,22 @@ void PathSample<F>::gather_along(const State &state, float end, const Medium &me
         at.beta *= c.weight * (1 / float(n));
         at.ray.origin = state.ray.origin + state.ray.direction * c.t;
         at.path_class = state.seen_directly() ? PathClass::medium : state.path_class;
+        if (is_lit_from_infinity(medium))
+            light_gather_point_from_infinity(at, medium, state.seen_directly());
         const float roulette_scale = state.seen_directly() ? kRouletteScaleAtGathers : kRouletteScaleAtSurfaces;
         if (!gather(at, float(n), state.depth == 0 ? state.passed_length() + c.t : 0, roulette_scale))
             stack_.pop_back();
     }
+}
+
+template <KernelFeatures F>
+void PathSample<F>::light_gather_point_from_infinity(const State &at, const Medium &medium, bool certain) {
+    const float probability = certain ? 1.0f : survival(at.beta, at.rr_scale, at.ray.origin, kRouletteScaleInMedium);
+    if (!(probability > 0) || (probability < 1 && sampler_.next_1d() >= probability))
+        return;
+    State lit = at;
+    lit.beta *= 1 / probability;
+    sample_infinite_lights(lit, lit.ray.origin, medium, medium.phase(), 0); // nothing else meets lights from there
 }
 
 template <KernelFeatures F>
@@ -95,7 +107,7 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
         if (flight.t > medium_compensation_radius)
             return;
         state.ray.origin = state.ray.origin + state.ray.direction * flight.t;
-        sample_light_in_medium(state, state.ray.origin, medium, false);
+        sample_light_in_medium(state, state.ray.origin, medium, medium.phase(), false);
         if (gather(state, 1, 0, kRouletteScaleAtGathers))
             push(state);
     } else if constexpr (F.surfaces) {

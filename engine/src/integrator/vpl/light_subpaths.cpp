@@ -12,7 +12,9 @@
 #include "integrator/vpl/tuning.h"
 #include "light/light.h"
 #include "medium/phase.h"
+#include "sampling/warp.h"
 
+#include <array>
 #include <cmath>
 
 namespace glimmer {
@@ -173,7 +175,7 @@ class LightSubpath {
         Bsdf bsdf = shading.bsdf;
         std::optional<DielectricCrossing> crossing; // of the boundary of a body
         if (shading.interior_ior > 0) {
-            crossing.emplace(surface, shading.interior_ior, path.ray.direction, path.interior);
+            crossing.emplace(surface, shading.interior_ior, path.ray.direction, path.interior, scene_.within_glass());
             bsdf.eta = crossing->eta;
         }
         const float weight = bsdf.empty() ? 0 : apply_window(path, surface.position);
@@ -347,7 +349,8 @@ class LightSubpath {
     void cross_dielectric(Branch &path, const Interaction &surface, const Shading &shading) {
         if (path.from_delta || !survives_specular(path))
             return;
-        DielectricCrossing crossing(surface, shading.interior_ior, path.ray.direction, path.interior);
+        DielectricCrossing crossing(surface, shading.interior_ior, path.ray.direction, path.interior,
+                                    scene_.within_glass());
         const bool bent = !(crossing.shading == crossing.geometric);
         if (bent && crossing.about_shading && crossing.may_leave_beneath_horizon()) {
             const bool on_shading = sampler_.next_1d() < 1 - tuning::kGeometricDielectricShare;
@@ -390,23 +393,30 @@ class LightSubpath {
 };
 
 /// The share of the subpaths that start at each light: by its power times the importance of its place, in a defensive
-/// mixture with the uniform distribution. 0 for infinite lights; empty where all are infinite.
-std::vector<double> start_shares(const LightSet &lights, const ImportanceMap &importance) {
+/// mixture with the uniform distribution. Light from infinity counts by what of it enters the bounded media. 0 for it
+/// where there are none; empty where no subpath can start.
+std::vector<double> start_shares(const Scene &scene, const ImportanceMap &importance) {
+    const LightSet &lights = scene.lights;
+    const BoundedMedia *bounded = scene.medium ? scene.medium->bounded() : nullptr;
     std::vector<double> shares(lights.size());
     double total = 0;
-    uint32_t finite = 0;
-    for (uint32_t i = 0; i < lights.size(); ++i)
-        if (const LightBound &b = lights.bound(i); !b.infinite) {
-            total += shares[i] = double(b.strength) * double(importance(b.center));
-            ++finite;
-        }
-    if (!finite)
+    uint32_t started = 0;
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        const LightBound &b = lights.bound(i);
+        if (b.infinite && !bounded)
+            continue;
+        const double radius = b.infinite ? double(bounded->bounds_radius()) : 0; // E pi R^2 is the power 4 pi I
+        const double intensity = b.infinite ? double(b.strength) * radius * radius / 4 : double(b.strength);
+        total += shares[i] = intensity * double(importance(b.infinite ? bounded->bounds_center() : b.center));
+        ++started;
+    }
+    if (!started)
         return {};
     const double by_importance = double(tuning::kStartsByImportance);
     const double uniform = double(1 - tuning::kStartsByImportance);
     for (uint32_t i = 0; i < lights.size(); ++i)
-        if (!lights.bound(i).infinite)
-            shares[i] = total > 0 ? by_importance * shares[i] / total + uniform / finite : 1.0 / finite;
+        if (!lights.bound(i).infinite || bounded)
+            shares[i] = total > 0 ? by_importance * shares[i] / total + uniform / started : 1.0 / started;
     return shares;
 }
 
@@ -417,6 +427,36 @@ Rgb passes_dark(const Scene &scene, const Emission &start, TraceContext &rays) {
     return visibility(scene, dark, kSubpathKind, rays) * transmittance(scene.outside(), dark, start.dark);
 }
 
+/// A ray of light from infinitely far.
+struct InfiniteStart {
+    Emission emission;
+    bool delta;
+    float body_power; ///< what its power would be, had all rays been aimed at the media
+};
+
+/// Half of the rays are aimed at the media alone, half at all that there is: surfaces beside the media light them, too.
+std::optional<InfiniteStart> start_from_infinity(const Scene &scene, const Light &light, ShutterTime time,
+                                                 Vec2f u_position, Vec2f u_direction, float u_choice) {
+    const BoundedMedia &media = *scene.medium->bounded();
+    const auto from = sample_light(light, media.bounds_center(), u_direction);
+    if (!from)
+        return std::nullopt;
+    const std::array<Vec3f, 2> centers{media.bounds_center(), scene.bounds_center};
+    const std::array<float, 2> radii{media.bounds_radius(), scene.bounds_radius};
+    const size_t aim = u_choice < 0.5f ? 0 : 1;
+    const Vec2f p = sample_uniform_disk(u_position);
+    const Frame frame(from->direction);
+    const Vec3f target = centers[aim] + (frame.x * p.x + frame.y * p.y) * radii[aim];
+    float density = 0; // per area across the ray
+    for (size_t k = 0; k < 2; ++k)
+        if (k == aim || length(cross(target - centers[k], from->direction)) <= radii[k])
+            density += 0.5f / (kPi * radii[k] * radii[k]);
+    const Rgb irradiance = from->radiance * (1 / from->pdf);
+    const Ray ray{target + from->direction * (2 * scene.bounds_radius), -from->direction, time};
+    return InfiniteStart{
+        {ray, irradiance * (1 / density)}, from->delta, max_component(irradiance) * kPi * radii[0] * radii[0]};
+}
+
 } // namespace
 
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
@@ -425,7 +465,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
     out.medium.directed = scene.medium && scene.medium->phase().g != 0;
     out.medium.counted = !(settings.limits == DepthLimits{});
     const LightSet &lights = scene.lights;
-    const std::vector<double> shares = start_shares(lights, importance);
+    const std::vector<double> shares = start_shares(scene, importance);
     LightSubpath subpath(scene, importance, settings, sampler, rays, out);
     const StartRegion camera = scene.camera.start_region();
     // Systematic sampling with one random number: light i starts its share of the subpaths, to within one.
@@ -441,6 +481,16 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
         const bool both = sphere && (clear || std::abs(distance - b.radius) <= camera.radius);
         for (; cursor < sum && !rays.stopped(); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+            if (b.infinite) {
+                auto start = start_from_infinity(scene, lights[i], time, u_position, u_direction, sampler.next_1d());
+                if (!start || is_black(start->emission.power))
+                    continue;
+                const auto weight = float(1 / (shares[i] * settings.paths));
+                start->emission.power *= weight;
+                const float target = start->body_power * weight * importance(scene.medium->bounded()->bounds_center());
+                subpath.trace(start->emission, start->delta, {}, target);
+                continue;
+            }
             const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;
             auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());
             if (!start || is_black(start->power))

@@ -28,19 +28,36 @@ bool has_narrow_peak(const HenyeyGreenstein &phase) {
 }
 
 bool is_dense_and_white(const Scene &scene) {
-    return scene.bounds_radius * scene.medium->majorant() > tuning::kDenseRadius &&
-           scene.bounds_radius * scene.medium->effective_attenuation() < tuning::kDiffuseRadius;
+    const BoundedMedia *bounded = scene.medium->bounded();
+    const float radius = bounded ? bounded->bounds_radius() : scene.bounds_radius;
+    return radius * scene.medium->majorant() > tuning::kDenseRadius &&
+           radius * scene.medium->effective_attenuation() < tuning::kDiffuseRadius;
 }
 
-bool has_finite_light(const Scene &scene) {
+/// Whether a subpath can start anywhere: light from infinity has no way into a medium without end.
+bool has_light_to_start_at(const Scene &scene) {
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
-        if (!scene.lights.bound(i).infinite)
+        if (!scene.lights.bound(i).infinite || scene.medium->bounded())
             return true;
     return false;
 }
 
+/// Why media within surfaces would not be served; null where they are.
+const char *reason_against(const Scene &scene, const BoundedMedia &media) {
+    if (!media.is_one_convex_body())
+        return "there is fog within surfaces that is not one convex body";
+    if (media.emits())
+        return "there is fog that shines";
+    if (scene.has_dielectrics)
+        return "there is glass, and fog within a surface";
+    return nullptr;
+}
+
 /// Why the cache would not serve a medium that scatters; null where it does.
 const char *reason_against(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera) {
+    if (const BoundedMedia *bounded = scene.medium->bounded())
+        if (const char *reason = reason_against(scene, *bounded))
+            return reason;
     if (limits.depth < 2 || limits.scatter < 1)
         return "max_depth is below 2 or max_scatter below 1";
     if (!around_camera.empty())
@@ -51,7 +68,7 @@ const char *reason_against(const Scene &scene, const DepthLimits &limits, const 
         return "the fog is so dense and white that light wanders through all of the scene";
     if (scene.hides_beyond_camera || scene.techniques_differ)
         return "objects or lights that some rays do not see, lamps without shadows or with a limit of bounces";
-    if (!has_finite_light(scene))
+    if (!has_light_to_start_at(scene))
         return "no light but from infinity";
     return nullptr;
 }

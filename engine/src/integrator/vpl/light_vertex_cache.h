@@ -52,6 +52,7 @@ struct LightVertexPlan {
 };
 
 /// The cache for a scene. There is none (docs/method.md, section 9) without a medium that scatters, and for
+/// - media within surfaces, unless it is one, within one convex body, in a scene without glass;
 /// - a phase function with too narrow a peak, which all but unbounds the connections;
 /// - a camera within a dielectric, whose rays do not scatter in the medium;
 /// - depth limits that leave no room for a light vertex and a gather point;

@@ -75,10 +75,14 @@ bool is_in_picture(const Scene &scene, const Ray &ray) {
 
 void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings &settings, Sampler &sampler,
            TraceContext &rays, std::vector<Splat> &out) {
-    const RayInterval seen = range_in_picture(scene, segment.ray);
+    RayInterval seen = range_in_picture(scene, segment.ray);
+    const Medium &medium = *scene.medium;
+    if (const BoundedMedia *bounded = medium.bounded()) {
+        const RayInterval within = bounded->scattering_range(segment.ray, segment.ray.t_max);
+        seen = {std::max(seen.begin, within.begin), std::min(seen.end, within.end)};
+    }
     if (!(seen.begin < seen.end))
         return;
-    const Medium &medium = *scene.medium;
     const float extinction = medium.least_scattering_extinction();
     for (uint32_t k = 0; k < tuning::kSplatPoints; ++k) {
         const float u = (float(k) + sampler.next_1d()) / float(tuning::kSplatPoints);
@@ -88,7 +92,7 @@ void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings 
             continue;
         const Vec3f x = segment.ray.origin + segment.ray.direction * t;
         splat_point(scene, x, segment.ray.direction, segment.ray.time,
-                    segment.power * medium.scattering(x) * medium.transmittance(segment.ray, t) *
+                    segment.power * medium.scattering(segment.ray, t) * medium.transmittance(segment.ray, t) *
                         (segment.remainder / pdf),
                     settings, sampler, rays, out);
     }
