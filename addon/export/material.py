@@ -20,6 +20,7 @@ from ..scene.description import (
     Lambert,
     Light,
     Material,
+    Medium,
     Mirror,
     NamedMaterial,
     Null,
@@ -39,6 +40,7 @@ from .principled import principled
 from .translate.image import Images
 from .translate.surface import tangent_input
 from .translate.values import Number, Triple, clamped, clamped_color, math, op, scaled, squared, triple
+from .volume import volume_medium
 
 if TYPE_CHECKING:
     import bpy
@@ -79,12 +81,13 @@ def export_material(
     shaders.nodes.constants_only = constants_only
     result = shaders.output()
     has_normal = not isinstance(result, (Light, Null))
+    volume = shaders.volume()
     try:
         (named, normal), program = programmed((result, shaders.normal if has_normal else None))
     except TooLargeError as error:
         notices.add(where, f"its nodes cannot be rendered, since {error}; its viewport colour is used")
-        return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
-    return NamedMaterial(material.name_full, named, material.pass_index, program, normal)
+        return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index, volume=volume)
+    return NamedMaterial(material.name_full, named, material.pass_index, program, normal, volume)
 
 
 def viewport_surface(material: bpy.types.Material) -> Surface:
@@ -128,7 +131,6 @@ class _Shaders:
         if surface is None:
             self.notices.add(self.where, "has no output node; its viewport colour is used")
             return Lambert(_clipped(self.viewport_color))
-        self._note_other_outputs()
         self.nodes.bumped_normal = self.normal = bump_of_displacement(self.nodes, self.material)
         if self.nodes.source(surface) is None:
             volume = self.nodes.surface_of_output("Volume")
@@ -138,11 +140,9 @@ class _Shaders:
             return Lambert(BLACK)
         return self.shader(surface)
 
-    def _note_other_outputs(self) -> None:
-        for name, what in (("Volume", "a volume inside an object is not supported; its surface alone is rendered"),):
-            item = self.nodes.surface_of_output(name)
-            if item is not None and self.nodes.source(item) is not None:
-                self.notices.add(self.where, what)
+    def volume(self) -> Medium | None:
+        item = self.nodes.surface_of_output("Volume")
+        return None if item is None else volume_medium(self.nodes, item)
 
     def shader(self, item: Input) -> Material:
         source = self.nodes.source(item)

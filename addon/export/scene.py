@@ -20,6 +20,7 @@ from ..scene.description import (
     Lamp,
     Light,
     Material,
+    Medium,
     Mesh,
     Mix,
     NamedMaterial,
@@ -352,6 +353,7 @@ class _Collector:
             color=_rgba(item.color),
             rays=seen.rays,
             is_holdout=seen.is_holdout,
+            interior=self._interior(item, materials),
         )
 
     def _add_moving(self, part: Object, middle: Floats, randoms: Floats, steps: Floats) -> None:
@@ -454,6 +456,20 @@ class _Collector:
             )
         )
 
+    def _interior(self, item: bpy.types.Object, materials: tuple[int, ...]) -> Medium | None:
+        """What the object is filled with."""
+        media = [self.materials[number].volume for number in dict.fromkeys(materials)]
+        found = [medium for medium in media if medium is not None]
+        if not found:
+            return None
+        where = place(item.name)
+        if any(m.type == "FLUID" and m.fluid_type == "DOMAIN" for m in item.modifiers):
+            self._notices.add(where, "smoke and fire are not supported; the domain is left empty")
+            return None
+        if len(set(media)) > 1:
+            self._notices.add(where, "has materials of several volumes; it is filled with the first one throughout")
+        return found[0]
+
     def _add_spheres(self, placed: Placed, matrices: Floats) -> bool:
         """False, and a notice, for what is marked as a sphere and is none."""
         item = placed.item
@@ -493,6 +509,7 @@ class _Collector:
                 object_index=item.pass_index,
                 rays=placed.visibility.rays,
                 is_holdout=placed.visibility.is_holdout,
+                interior=self._interior(item, (self._material(material, item.name),)),
             )
         )
         return True

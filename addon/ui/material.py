@@ -5,13 +5,16 @@ import bpy
 from .panel import GlimmerPanel, draw_node_input
 
 
-class GLIMMER_PT_surface(GlimmerPanel, bpy.types.Panel):
-    bl_label = "Surface"
+class _MaterialPanel(GlimmerPanel):
     bl_context = "material"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return super().poll(context) and context.material is not None
+
+
+class GLIMMER_PT_surface(_MaterialPanel, bpy.types.Panel):
+    bl_label = "Surface"
 
     def draw(self, context: bpy.types.Context) -> None:
         material = context.material
@@ -24,9 +27,27 @@ class GLIMMER_PT_surface(GlimmerPanel, bpy.types.Panel):
             self.layout.prop(material, name)
 
 
+class GLIMMER_PT_volume(_MaterialPanel, bpy.types.Panel):
+    bl_label = "Volume"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.material.use_nodes
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        draw_node_input(self.layout, context.material.node_tree, "Volume")
+
+
+_CLASSES = (GLIMMER_PT_surface, GLIMMER_PT_volume)
+
+
 def register() -> None:
-    bpy.utils.register_class(GLIMMER_PT_surface)
+    for panel in _CLASSES:
+        bpy.utils.register_class(panel)
 
 
 def unregister() -> None:
-    bpy.utils.unregister_class(GLIMMER_PT_surface)
+    for panel in reversed(_CLASSES):
+        bpy.utils.unregister_class(panel)

@@ -191,9 +191,9 @@ def nothing() -> Build:
     return Build()
 
 
-def all_volumes() -> Build:
+def all_volumes(kind: str = "world") -> Build:
     """Scatter + absorption."""
-    b = Build("world")
+    b = Build(kind)
     scatter = b.node("ShaderNodeVolumeScatter", Color=(0.5, 1.0, 0.25, 1.0), Density=0.2, Anisotropy=0.5)
     absorption = b.node("ShaderNodeVolumeAbsorption", Color=(0.5, 1.0, 0.25, 1.0), Density=0.1)
     add = b.node("ShaderNodeAddShader")
@@ -203,9 +203,23 @@ def all_volumes() -> Build:
     return b
 
 
-def principled_volume() -> Build:
-    b = Build("world")
+def principled_volume(kind: str = "world") -> Build:
+    b = Build(kind)
     b.volume(b.node("ShaderNodeVolumePrincipled", Color=(0.5, 0.25, 1.0, 1.0), Density=2.0))
+    return b
+
+
+def shining_volume(kind: str = "world") -> Build:
+    """Half a volume that shines, half one of varying density."""
+    b = Build(kind)
+    shining = b.node("ShaderNodeVolumePrincipled", Density=0.0, Emission_Strength=2.0)
+    shining.inputs["Emission Color"].default_value = (0.5, 0.25, 1.0, 1.0)
+    varying = b.node("ShaderNodeVolumeScatter", Anisotropy=0.5)
+    b.link(b.node("ShaderNodeTexNoise").outputs[0], varying.inputs["Density"])
+    mix = b.node("ShaderNodeMixShader")
+    b.link(shining.outputs[0], mix.inputs[1])
+    b.link(varying.outputs[0], mix.inputs[2])
+    b.volume(mix)
     return b
 
 
@@ -262,11 +276,19 @@ MATERIALS: dict[str, Callable[[], Build]] = {
 WORLDS = {
     "all_volumes": all_volumes,
     "principled_volume": principled_volume,
+    "shining_volume": shining_volume,
     "background": background,
     "sky": sky,
 }
 if hasattr(bpy.types, "ShaderNodeVolumeCoefficients"):
     WORLDS["coefficients"] = coefficients
+
+
+INTERIORS: dict[str, Callable[[str], Build]] = {
+    "all_volumes": all_volumes,
+    "principled_volume": principled_volume,
+    "shining_volume": shining_volume,
+}
 
 
 def translate() -> dict[str, Any]:
@@ -277,6 +299,11 @@ def translate() -> dict[str, Any]:
         operations = 0 if found.program is None else len(found.program.instructions)
         facts[name] = {"is": repr(found.material), "operations": operations}
         facts[name]["notices"] = [str(notice) for notice in notices.items]
+    for name, filled in INTERIORS.items():
+        notices = Notices()
+        found = export_material(filled("material").owner, "Thing", bpy.app.version, notices)
+        facts["in " + name] = {"is": repr(found.material), "medium": found.volume and vars(found.volume)}
+        facts["in " + name]["notices"] = [str(notice) for notice in notices.items]
     for name, build in WORLDS.items():
         notices = Notices()
         environment, medium = export_world(build().owner, notices)

@@ -183,17 +183,35 @@ def test_a_sky_varies_with_the_direction(facts: dict[str, Any]) -> None:
     assert found["notices"] == []
 
 
-def test_volumes_add_up(facts: dict[str, Any]) -> None:
-    medium = facts["nodes"]["all_volumes"]["medium"]
+@pytest.mark.parametrize("name", ["all_volumes", "in all_volumes"])
+def test_volumes_add_up(facts: dict[str, Any], name: str) -> None:
+    medium = facts["nodes"][name]["medium"]
     assert medium["sigma_s"] == close((0.1, 0.2, 0.05))
     assert medium["sigma_a"] == close((0.05, 0.0, 0.075))
     assert medium["g"] == pytest.approx(0.5)
 
 
-def test_a_principled_volume(facts: dict[str, Any]) -> None:
-    medium = facts["nodes"]["principled_volume"]["medium"]
+@pytest.mark.parametrize("name", ["principled_volume", "in principled_volume"])
+def test_a_principled_volume(facts: dict[str, Any], name: str) -> None:
+    medium = facts["nodes"][name]["medium"]
     assert medium["sigma_s"] == close((1.0, 0.5, 2.0))
     assert medium["sigma_a"] == close((1.0, 1.5, 0.0))
+
+
+def test_a_volume_alone_has_no_surface(facts: dict[str, Any]) -> None:
+    found = facts["nodes"]["in all_volumes"]
+    assert found["is"] == "Null()"
+    assert found["notices"] == []
+
+
+def test_a_volume_may_shine_but_not_a_worlds(facts: dict[str, Any]) -> None:
+    """And density that varies is left out, and told."""
+    found, world = facts["nodes"]["in shining_volume"], facts["nodes"]["shining_volume"]
+    assert found["medium"]["emission"] == close((0.5, 0.25, 1.0))
+    assert world["medium"]["emission"] == close((0.0, 0.0, 0.0))
+    assert found["medium"]["sigma_s"] == close((0.0, 0.0, 0.0))
+    assert len(found["notices"]) == 1 and "density that varies" in found["notices"][0]
+    assert sum("does not emit" in notice for notice in world["notices"]) == 1
 
 
 def test_volume_coefficients(facts: dict[str, Any], host: Host) -> None:
