@@ -45,6 +45,7 @@ class _Writer:
         self._folder = path.with_name(path.stem + "_data")
         self._mesh_names: dict[bytes, str] = {}
         self._material_names: list[str] = []
+        self._varies: list[bool] = []  # whether a material has a program, which may ask for numbers of its object
         self._meshes: Json = {}
         self._programs: Json = {}
         self._textures: Json = {}
@@ -53,6 +54,7 @@ class _Writer:
 
     def document(self, scene: d.SceneDescription) -> Json:
         self._material_names = _unique([item.name for item in scene.materials])
+        self._varies = [item.program is not None for item in scene.materials]
         named = zip(self._material_names, scene.materials, strict=True)
         result: Json = {
             "glimmer": 1,
@@ -70,7 +72,7 @@ class _Writer:
         if scene.medium is not None:
             result["medium"] = _medium(scene.medium)
         result["render"] = {key: getattr(scene.settings, key) for key in RENDER_KEYS}
-        return result
+        return {key: value for key, value in result.items() if value or key not in ("textures", "programs")}
 
     def _save(self, kind: str, array: Any) -> str:
         name = f"{kind}_{self._arrays}.npy"
@@ -157,8 +159,9 @@ class _Writer:
             result["instances"] = self._save("instances", item.instances)
         if item.color != (1.0, 1.0, 1.0, 1.0):
             result["color"] = list(item.color)
-        randoms = np.asarray(item.random, np.float64).reshape(-1)
-        if item.instances is not None and len(randoms) == len(item.instances):
+        varies = any(self._varies[number] for number in item.materials)
+        randoms = np.asarray(item.random if varies else 0.0, np.float64).reshape(-1)
+        if item.instances is not None and varies and len(randoms) == len(item.instances):
             result["randoms"] = self._save("randoms", randoms)
         elif randoms[0] != 0.0:
             result["random"] = float(randoms[0])

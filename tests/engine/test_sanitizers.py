@@ -21,8 +21,8 @@ GREY_FOG = {"sigma_a": 0.01, "sigma_s": 0.05}
 INTERIOR = {"sigma_a": 0.1, "sigma_s": [0.2, 0.3, 0.5], "g": 0.2, "emission": 0.1}
 """Isotropic, so that light vertices are shared."""
 
-FUZZERS = {"api": 40_000, "mesh_files": 100_000, "scene": 4_000}
-"""How many inputs each runs, those of its corpus among them: about 15 seconds on an idle machine."""
+FUZZERS = {"api": 20_000, "mesh_files": 100_000, "scene": 4_000}
+"""How many inputs each runs, those of its corpus among them: half a minute on an idle machine."""
 # Without leaks: LeakSanitizer now and then dies of TBB's threads. The fuzzers look for them by other means.
 ENVIRONMENT = {
     "ASAN_OPTIONS": "exitcode=66:detect_leaks=0:allocator_may_return_null=1",

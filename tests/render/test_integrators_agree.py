@@ -293,7 +293,11 @@ SCENES: dict[str, Callable[[], Builder]] = {
 }
 
 
-@pytest.mark.parametrize("name", SCENES)
+# Relatives of "light by way of metal" that take long.
+LONG = ("light by way of metal, in a mirror", "light by way of metal, forward")
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.full] * (name in LONG)) for name in SCENES])
 def test_both_integrators(name: str) -> None:
     scene = SCENES[name]().done()
     path, baseline = (Pictures(Measurement(scene, integrator, samples=2)) for integrator in ("path", "baseline"))

@@ -91,7 +91,7 @@ def _material(name: str, found: dict[str, Any]) -> Material:
         return Light(_color(found["radiance"]))
     if kind != "conductor":
         raise UnsupportedError(f"{where}: {kind}")
-    _only(found, "type alpha f0 f90", where)
+    _only(found, "type alpha f0 f90 masking", where)  # the peers mask as they do
     if "f0" not in found or _color(found["f0"]) != _color(found.get("f90", 1)):
         raise UnsupportedError(f"{where}: Fresnel")
     return Metal(found["alpha"], _color(found["f0"]))
