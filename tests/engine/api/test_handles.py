@@ -125,6 +125,18 @@ def test_null_descriptions_and_outputs(scene: c_void_p) -> None:
     assert not handle
 
 
+def add_filled_sphere(scene: c_void_p, interior: Any) -> int:
+    """interior: a reference to the medium within it."""
+    add_material(scene)
+    centers, radii = (c_double * 3)(), (c_double * 1)(1)
+    spheres = engine().init(structs.SpheresDesc)
+    spheres.name, spheres.count, spheres.radius_count = b"filled", 1, 1
+    spheres.centers, spheres.radii = ctypes.addressof(centers), ctypes.addressof(radii)
+    spheres.interior = ctypes.cast(interior, c_void_p)
+    result: int = functions().glimmer_scene_add_spheres(scene, byref(spheres))
+    return result
+
+
 @pytest.mark.parametrize("struct", structs.INITIALISERS.values())
 def test_struct_size(struct: type[ctypes.Structure], scene: c_void_p) -> None:
     """0 (never initialised) and more than the library knows."""
@@ -135,6 +147,7 @@ def test_struct_size(struct: type[ctypes.Structure], scene: c_void_p) -> None:
         "TextureDesc": lambda p: library.glimmer_texture_create(p, byref(out)),
         "ProgramDesc": lambda p: library.glimmer_scene_add_program(scene, p, byref(c_uint32())),
         "MaterialDesc": lambda p: library.glimmer_scene_add_material(scene, p, byref(c_uint32())),
+        "MediumDesc": lambda p: add_filled_sphere(scene, p),
         "ObjectDesc": lambda p: library.glimmer_scene_add_object(scene, p),
         "SpheresDesc": lambda p: library.glimmer_scene_add_spheres(scene, p),
         "LightDesc": lambda p: library.glimmer_scene_add_light(scene, p),
