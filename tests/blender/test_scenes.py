@@ -127,6 +127,7 @@ def test_the_newest_blender_renders_them_like_the_pinned_one(
     assert in_newest[name]["mean"] == pytest.approx(in_bpy[name]["mean"], rel=5e-3)
 
 
+@pytest.mark.full
 @pytest.mark.timeout(900)  # 64 renders
 def test_the_furnace_is_white(blender: Path, library_dir: Path, tmp_path: Path) -> None:
     """By chance, it fails once in ten thousand seeds. Fog, lambert, mirror, glass, plates and a light around the
