@@ -51,7 +51,9 @@ def fluence(integrator: str, c: float, r: float, seed: int) -> float:
     return float(total)
 
 
-@pytest.mark.parametrize(("c", "r"), [(0.5, 1), (0.9, 0.3), *(pytest.param(0.9, r, marks=pytest.mark.full) for r in (1, 3))])
+@pytest.mark.parametrize(
+    ("c", "r"), [(0.5, 1), (0.9, 0.3), *(pytest.param(0.9, r, marks=pytest.mark.full) for r in (1, 3))]
+)
 def test_infinite_medium(integrator: str, c: float, r: float) -> None:
     """Order after order into every direction: nothing but distances, phase and roulette."""
     check_mean(
