@@ -139,15 +139,9 @@ CASES: dict[str, Callable[[], Any]] = {
 
 def block_means(path: Path, scene: Any, engine: str, seed: int) -> Any:
     """(blocks, 3)"""
-    scene.render.engine = engine
-    scene.cycles.seed = scene.glimmer.seed = seed
-    inside.render(path)
-    image = bpy.data.images.load(str(path), check_existing=False)
-    width, height = image.size
-    pixels = np.empty(width * height * 4, np.float32)
-    image.pixels.foreach_get(pixels)
-    bpy.data.images.remove(image)
-    cut = pixels.reshape(height // BLOCKS, BLOCKS, width // BLOCKS, BLOCKS, 4)[..., :3].astype(np.float64)
+    pixels = inside.picture(path, engine, seed)
+    height, width, _ = pixels.shape
+    cut = pixels.reshape(height // BLOCKS, BLOCKS, width // BLOCKS, BLOCKS, 3).astype(np.float64)
     return cut.mean(axis=(1, 3))
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import bmesh
 import bpy
+import numpy as np
 
 sys.path.insert(0, os.environ["GLIMMER_TEST_ADDONS"])
 
@@ -127,3 +128,17 @@ def use_format(name: str) -> None:
 def render(path: Path, **options: Any) -> None:
     bpy.context.scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=not options.get("animation", False), **options)
+
+
+def picture(path: Path, engine: str, seed: int) -> Any:
+    """(height, width, 3) of float32, bottom row first: what an engine renders of the scene, by way of that file."""
+    scene = bpy.context.scene
+    scene.render.engine = engine
+    scene.cycles.seed = scene.glimmer.seed = seed
+    render(path)
+    image = bpy.data.images.load(str(path), check_existing=False)
+    width, height = image.size
+    pixels = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, -1)[..., :3]

@@ -166,16 +166,7 @@ PICTURES: dict[str, Callable[[], None]] = {
 
 
 def picture(engine: str, seed: int) -> Any:
-    scene = bpy.context.scene
-    scene.render.engine = engine
-    scene.cycles.seed = scene.glimmer.seed = seed
-    path = OUT / "picture.exr"
-    inside.render(path)
-    image = bpy.data.images.load(str(path), check_existing=False)
-    pixels = np.empty(WIDTH * HEIGHT * 4, np.float32)
-    image.pixels.foreach_get(pixels)
-    bpy.data.images.remove(image)
-    return pixels.reshape(HEIGHT, WIDTH, 4)[..., :3]
+    return inside.picture(OUT / "picture.exr", engine, seed)
 
 
 def write_pictures() -> None:

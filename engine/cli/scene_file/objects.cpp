@@ -94,16 +94,8 @@ void read_object(const Value &value, glimmer_scene *scene, const Materials &mate
         desc.motion = motion.data();
         desc.motion_count = motion.size() / 16;
     }
-    if (const auto index = value.find("index"))
-        desc.object_index = static_cast<uint32_t>(index->integer(0, UINT32_MAX));
-
-    if (const auto visible = value.find("visible"))
-        desc.visible = read_rays(*visible);
-    if (const auto holdout = value.find("holdout"))
-        desc.holdout = holdout->boolean();
     const auto interior = read_interior(value);
-    if (interior)
-        desc.interior = &*interior;
+    read_body(value, interior, desc);
 
     std::vector<double> instances;
     std::vector<uint32_t> indices;

@@ -81,6 +81,20 @@ std::vector<double> read_motion(const Value &value);
 /// A list of kinds of rays, as a set of glimmer_ray.
 uint32_t read_rays(const Value &list);
 
+/// What objects and spheres have in common: the index, what sees them, and what they are filled with. The description
+/// refers to `interior`, which must outlive it.
+template <class Description>
+void read_body(const Value &value, const std::optional<glimmer_medium_desc> &interior, Description &desc) {
+    if (const auto index = value.find("index"))
+        desc.object_index = static_cast<uint32_t>(index->integer(0, UINT32_MAX));
+    if (const auto visible = value.find("visible"))
+        desc.visible = read_rays(*visible);
+    if (const auto holdout = value.find("holdout"))
+        desc.holdout = holdout->boolean();
+    if (interior)
+        desc.interior = &*interior;
+}
+
 /// The matrix at a key, or the identity.
 Matrix matrix_or_identity(const Value &value, std::string_view key);
 

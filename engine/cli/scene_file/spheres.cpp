@@ -16,16 +16,8 @@ void read_spheres(const Value &value, glimmer_scene *scene, const Materials &mat
     glimmer_spheres_init(&desc);
     desc.name = name.c_str();
     desc.material = materials.find(value.at("material"));
-    if (const auto index = value.find("index"))
-        desc.object_index = static_cast<uint32_t>(index->integer(0, UINT32_MAX));
-
-    if (const auto visible = value.find("visible"))
-        desc.visible = read_rays(*visible);
-    if (const auto holdout = value.find("holdout"))
-        desc.holdout = holdout->boolean();
     const auto interior = read_interior(value);
-    if (interior)
-        desc.interior = &*interior;
+    read_body(value, interior, desc);
 
     std::vector<double> centers, radii;
     if (const auto center = value.find("center")) {
