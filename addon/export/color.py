@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colour by formula: blackbody, sRGB, and the mean of Fresnel's equations."""
+"""Arithmetic of colours, and colour by formula: blackbody, sRGB, and the mean of Fresnel's equations."""
 
 from math import exp, log, sqrt
 
@@ -11,6 +11,18 @@ from ..scene.description import Floats, Rgb
 TO_RGB = np.array(
     [[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]]
 )
+
+
+def scaled(color: Rgb, factor: float) -> Rgb:
+    return (color[0] * factor, color[1] * factor, color[2] * factor)
+
+
+def add_colors(a: Rgb, b: Rgb) -> Rgb:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def lerp(a: Rgb, b: Rgb, t: float) -> Rgb:
+    return (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t)
 
 
 def srgb_to_linear(values: Floats) -> Floats:

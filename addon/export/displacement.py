@@ -6,7 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..scene.program import Op
-from .nodes import Input, Nodes, Source
+from .nodes import Nodes
+from .sockets import Input, Source
 from .translate.surface import attribute, geometry, tangents
 from .translate.values import Number, Triple, math, number, op, product, triple, vector_math
 

@@ -11,7 +11,8 @@ import numpy as np
 from ..scene.description import AreaLight, Floats, Lamp, LampFlags, PointLight, Rays, Rgb, SpotLight, SunLight
 from ..scene.problems import Notices, place
 from .camera import rigid
-from .nodes import Nodes, scaled
+from .color import scaled
+from .nodes import Nodes
 
 if TYPE_CHECKING:
     import bpy

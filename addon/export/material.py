@@ -35,8 +35,9 @@ from ..scene.program import Op, TooLargeError, programmed
 from .color import EUMELANIN, PHEOMELANIN, hair_reflectance
 from .combine import add, mix
 from .displacement import bump_of_displacement
-from .nodes import Input, Nodes, Source
+from .nodes import Nodes
 from .principled import principled
+from .sockets import Input, Source
 from .translate.image import Images
 from .translate.surface import tangent_input
 from .translate.values import Number, Triple, clamped, clamped_color, math, op, scaled, squared, triple

@@ -7,70 +7,23 @@ Where only a constant will do, what varies is replaced by the closest constant, 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from ..native.library import load
 from ..scene.description import Rgb, SkySun
 from ..scene.problems import Notices
 from ..scene.program import Op
-from .color import blackbody, luminance, mean_fresnel, srgb_to_linear
+from .color import scaled
+from .fold import FOLDS, MEANS, Folder
+from .sockets import Constant, Input, NotConstantError, Source, as_color, as_number, default_value, find_input
 from .translate import arithmetic, image, pattern, sky, surface, vector
 from .translate import color as color_nodes
 from .translate.values import Number, Triple, Value, converted, number, triple
 
 if TYPE_CHECKING:
     import bpy
-
-Constant = tuple[float, ...]  # (v,) or (r, g, b)
-
-
-def scaled(color: Rgb, factor: float) -> Rgb:
-    return (color[0] * factor, color[1] * factor, color[2] * factor)
-
-
-def add_colors(a: Rgb, b: Rgb) -> Rgb:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def lerp(a: Rgb, b: Rgb, t: float) -> Rgb:
-    return (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t)
-
-
-def as_color(value: tuple[float, ...]) -> Rgb:
-    return (value[0], value[0], value[0]) if len(value) == 1 else (value[0], value[1], value[2])
-
-
-def as_number(value: tuple[float, ...]) -> float:
-    return value[0] if len(value) == 1 else luminance(as_color(value))
-
-
-@dataclass(frozen=True)
-class Source:
-    """Where the value of an input comes from: the output of a node, within the groups that were entered."""
-
-    node: Any
-    output: Any
-    groups: tuple[Any, ...]
-    kinds: tuple[str, ...] = ()  # of the sockets of groups on the way, each of which converts, from the input back
-
-
-@dataclass(frozen=True)
-class Input:
-    """An input socket within the groups that were entered."""
-
-    socket: Any
-    groups: tuple[Any, ...] = ()
-
-
-class NotConstantError(Exception):
-    """A value that varies over a surface or a direction."""
 
 
 def unknown_mode(value: Value) -> str | None:
@@ -89,15 +42,6 @@ def blender_version() -> tuple[int, ...]:
     import bpy
 
     return tuple(bpy.app.version)
-
-
-def find_input(node: Any, *names: str) -> Any:
-    """The first of a node's inputs of these names: a name may change between versions of Blender."""
-    for name in names:
-        socket = node.inputs.get(name)
-        if socket is not None:
-            return socket
-    return None
 
 
 class Nodes:
@@ -181,7 +125,7 @@ class Nodes:
         """Of a socket: a constant, or an operation. What has no counterpart is replaced where it stands, and told."""
         source = self.source(item)
         if source is None:
-            return _default(item.socket)
+            return default_value(item.socket)
         value = self._source_value(source)
         given = source.output.type
         for kind in (*reversed(source.kinds), item.socket.type):
@@ -190,7 +134,7 @@ class Nodes:
 
     def _source_value(self, source: Source) -> Value:
         if source.node is None:
-            return _default(source.output)
+            return default_value(source.output)
         width = self.shift_width if isinstance(self.shift_width, float) else id(self.shift_width)
         key = (source.output.as_pointer(), *(group.as_pointer() for group in source.groups), self.shift, width)
         if key not in self._values:
@@ -291,19 +235,19 @@ class Nodes:
     def _constant(self, item: Input, means: bool) -> Constant:
         source = self.source(item)
         if source is None:
-            return _default(item.socket)
+            return default_value(item.socket)
         if source.node is None:
-            return _default(source.output)
+            return default_value(source.output)
         return self._folded(source, means)
 
     def _folded(self, source: Source, means: bool) -> Constant:
         key = (source.output.as_pointer(), *(group.as_pointer() for group in source.groups), means)
         if key not in self._constants:
-            fold = _FOLDS.get(source.node.bl_idname) or (_MEANS.get(source.node.bl_idname) if means else None)
+            fold = FOLDS.get(source.node.bl_idname) or (MEANS.get(source.node.bl_idname) if means else None)
             self._constants[key] = NotConstantError(source.node)
             if fold is not None:
                 try:
-                    self._constants[key] = fold(_Folder(self, means), source)
+                    self._constants[key] = fold(Folder(self, means), source)
                 except NotConstantError as error:
                     self._constants[key] = error
         found = self._constants[key]
@@ -319,7 +263,7 @@ class Nodes:
         try:
             return as_color(self.constant(Input(socket, groups)))
         except NotConstantError as error:
-            own = as_color(_default(socket)) if fallback is None else fallback
+            own = as_color(default_value(socket)) if fallback is None else fallback
             shown = ", ".join(f"{v:.3g}" for v in own)
             what = "the material's viewport colour" if fallback is not None else "the socket's own value"
             self.notice(error.args[0], f"cannot be rendered; {socket.name} uses {what} ({shown}) in its place")
@@ -333,7 +277,7 @@ class Nodes:
         try:
             return as_number(self.constant(Input(socket, groups)))
         except NotConstantError as error:
-            own = as_number(_default(socket))
+            own = as_number(default_value(socket))
             what = f"cannot be rendered; {socket.name} uses the socket's own value ({own:.3g}) in its place"
             self.notice(error.args[0], what)
             return own
@@ -353,204 +297,6 @@ class Nodes:
             return (1.0, 1.0, 1.0)
         color = self.color(source.node, source.groups, ("Color",))
         return scaled(color, self.number(source.node, source.groups, "Strength"))
-
-
-def _default(socket: Any) -> Constant:
-    value = getattr(socket, "default_value", 0.0)
-    if isinstance(value, (int, float)):
-        return (float(value),)
-    return tuple(float(v) for v in value[:3])
-
-
-# ---- Nodes whose value is known without a surface ------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class _Folder:
-    """Reads the inputs of a node that is folded."""
-
-    nodes: Nodes
-    means: bool
-
-    def value(self, item: Input) -> tuple[float, ...]:
-        return self.nodes.constant(item) if self.means else self.nodes.folded(item)
-
-    def notice(self, node: Any, what: str) -> None:
-        self.nodes.notice(node, what)
-
-
-def _input(nodes: _Folder, source: Source, index: int) -> Constant:
-    return nodes.value(Input(source.node.inputs[index], source.groups))
-
-
-def _own_value(nodes: _Folder, source: Source) -> Constant:
-    return _default(source.output)
-
-
-def _blackbody(nodes: _Folder, source: Source) -> Constant:
-    return blackbody(as_number(_input(nodes, source, 0)))
-
-
-def _combine(nodes: _Folder, source: Source) -> Constant:
-    if getattr(source.node, "mode", "RGB") != "RGB":
-        raise NotConstantError(source.node)
-    return tuple(as_number(_input(nodes, source, i)) for i in range(3))
-
-
-_BINARY: dict[str, Callable[[float, float], float]] = {
-    "ADD": lambda a, b: a + b,
-    "SUBTRACT": lambda a, b: a - b,
-    "MULTIPLY": lambda a, b: a * b,
-    "DIVIDE": lambda a, b: a / b if b else 0.0,
-    "POWER": lambda a, b: a**b if a > 0.0 else 0.0,
-    "MINIMUM": min,
-    "MAXIMUM": max,
-}
-_UNARY: dict[str, Callable[[float], float]] = {
-    "SQRT": lambda a: math.sqrt(max(a, 0.0)),
-    "ABSOLUTE": abs,
-    "RADIANS": math.radians,
-    "DEGREES": math.degrees,
-}
-
-
-def _math(nodes: _Folder, source: Source) -> Constant:
-    operation = source.node.operation
-    a = as_number(_input(nodes, source, 0))
-    if operation in _BINARY:
-        result = _BINARY[operation](a, as_number(_input(nodes, source, 1)))
-    elif operation in _UNARY:
-        result = _UNARY[operation](a)
-    else:
-        raise NotConstantError(source.node)
-    return (min(max(result, 0.0), 1.0) if source.node.use_clamp else result,)
-
-
-_BLENDS: dict[str, Callable[[float, float], float]] = {
-    "MIX": lambda a, b: b,
-    "MULTIPLY": lambda a, b: a * b,
-    "ADD": lambda a, b: a + b,
-    "SUBTRACT": lambda a, b: a - b,
-    "DARKEN": min,
-    "LIGHTEN": max,
-    "SCREEN": lambda a, b: 1.0 - (1.0 - a) * (1.0 - b),
-}
-
-
-def _mix(nodes: _Folder, source: Source) -> Constant:
-    node = source.node
-    if node.bl_idname == "ShaderNodeMix":
-        suffix = {"FLOAT": "Float", "VECTOR": "Vector", "RGBA": "Color"}.get(node.data_type)
-        if suffix is None or (node.data_type == "VECTOR" and node.factor_mode != "UNIFORM"):
-            raise NotConstantError(node)
-        wanted = ("Factor_Float", f"A_{suffix}", f"B_{suffix}")
-        by_identifier = {socket.identifier: socket for socket in node.inputs}
-        factor, a, b = (nodes.value(Input(by_identifier[name], source.groups)) for name in wanted)
-        blend = node.blend_type if node.data_type == "RGBA" else "MIX"
-        clamp_factor, clamp_result = node.clamp_factor, node.clamp_result and node.data_type == "RGBA"
-    else:
-        factor, a, b = (_input(nodes, source, i) for i in range(3))
-        blend, clamp_factor, clamp_result = node.blend_type, True, node.use_clamp
-    if blend not in _BLENDS:
-        raise NotConstantError(node)
-    t = as_number(factor)
-    t = min(max(t, 0.0), 1.0) if clamp_factor else t
-    if len(a) != len(b):
-        a, b = as_color(a), as_color(b)
-    result = tuple(x + t * (_BLENDS[blend](x, y) - x) for x, y in zip(a, b, strict=True))
-    return tuple(min(max(v, 0.0), 1.0) for v in result) if clamp_result else result
-
-
-def _gamma(nodes: _Folder, source: Source) -> Constant:
-    exponent = as_number(_input(nodes, source, 1))
-    return tuple(v**exponent if v > 0.0 else v for v in as_color(_input(nodes, source, 0)))
-
-
-def _invert(nodes: _Folder, source: Source) -> Constant:
-    factor = as_number(_input(nodes, source, 0))
-    return tuple(v + factor * (1.0 - 2.0 * v) for v in as_color(_input(nodes, source, 1)))
-
-
-def _ramp(nodes: _Folder, source: Source) -> Constant:
-    color = source.node.color_ramp.evaluate(as_number(_input(nodes, source, 0)))
-    return (color[3],) if source.output.identifier == "Alpha" else tuple(color[:3])
-
-
-def _to_gray(nodes: _Folder, source: Source) -> Constant:
-    return (luminance(as_color(_input(nodes, source, 0))),)
-
-
-def _fresnel(nodes: _Folder, source: Source) -> Constant:
-    mean = mean_fresnel(max(as_number(_input(nodes, source, 0)), 1e-3))
-    nodes.notice(source.node, f"varies with the angle; its mean over all directions ({mean:.3g}) is used")
-    return (mean,)
-
-
-def _layer_weight(nodes: _Folder, source: Source) -> Constant:
-    blend = min(max(as_number(_input(nodes, source, 0)), 0.0), 1.0 - 1e-5)
-    if source.output.identifier == "Fresnel":
-        mean = mean_fresnel(1.0 / (1.0 - blend))
-    else:  # 1 - cos^p, its mean over the cosine-weighted hemisphere
-        power = 2.0 * blend if blend < 0.5 else 0.5 / (1.0 - blend)
-        mean = 1.0 - 2.0 / (power + 2.0)
-    nodes.notice(source.node, f"varies with the angle; its mean over all directions ({mean:.3g}) is used")
-    return (mean,)
-
-
-def read_image(image: bpy.types.Image) -> NDArray[np.float32]:
-    """(height, width, channels) float32, linear, bottom row first."""
-    width, height = image.size
-    channels = image.channels
-    if not width or not height or not channels:
-        raise ValueError("has no pixels")
-    pixels = np.empty(width * height * channels, np.float32)
-    image.pixels.foreach_get(pixels)
-    pixels = pixels.reshape(height, width, channels)
-    if not image.is_float and image.colorspace_settings.name.startswith("sRGB"):
-        pixels[..., :3] = srgb_to_linear(pixels[..., :3])
-    if channels < 3:
-        pixels = np.repeat(pixels[..., :1], 3, axis=2)
-    return pixels
-
-
-def _image_texture(nodes: _Folder, source: Source) -> Constant:
-    image = source.node.image
-    if image is None:
-        raise NotConstantError(source.node)
-    try:
-        pixels = read_image(image)
-    except (ValueError, RuntimeError):
-        raise NotConstantError(source.node) from None
-    if source.output.identifier == "Alpha":
-        mean: Constant = (float(pixels[..., 3].mean()) if pixels.shape[2] > 3 else 1.0,)
-    else:
-        mean = tuple(float(v) for v in pixels[..., :3].mean(axis=(0, 1)))
-    shown = ", ".join(f"{v:.3g}" for v in mean)
-    nodes.notice(source.node, f"textures are not supported; the mean of image '{image.name}' ({shown}) is used")
-    return mean
-
-
-_FOLDS: dict[str, Callable[[_Folder, Source], Constant]] = {
-    "ShaderNodeRGB": _own_value,
-    "ShaderNodeValue": _own_value,
-    "ShaderNodeBlackbody": _blackbody,
-    "ShaderNodeCombineColor": _combine,
-    "ShaderNodeCombineRGB": _combine,
-    "ShaderNodeCombineXYZ": _combine,
-    "ShaderNodeMath": _math,
-    "ShaderNodeMix": _mix,
-    "ShaderNodeMixRGB": _mix,
-    "ShaderNodeGamma": _gamma,
-    "ShaderNodeInvert": _invert,
-    "ShaderNodeValToRGB": _ramp,
-    "ShaderNodeRGBToBW": _to_gray,
-}
-# What varies, but whose mean is known.
-_MEANS: dict[str, Callable[[_Folder, Source], Constant]] = {
-    "ShaderNodeFresnel": _fresnel,
-    "ShaderNodeLayerWeight": _layer_weight,
-    "ShaderNodeTexImage": _image_texture,
-}
 
 
 _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {

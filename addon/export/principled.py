@@ -25,7 +25,8 @@ from ..scene.description import (
 from ..scene.program import Op
 from .color import ior_of_normal_reflectance
 from .combine import mix
-from .nodes import Nodes, Source, find_input
+from .nodes import Nodes
+from .sockets import Source, find_input
 from .translate.values import (
     Number,
     Triple,

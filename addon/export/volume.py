@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from math import pi, sqrt
 
 from ..scene.description import BLACK, Medium, Rgb
-from .color import blackbody, luminance
-from .nodes import Input, Nodes, NotConstantError, Source, add_colors, scaled
+from .color import add_colors, blackbody, luminance, scaled
+from .nodes import Nodes
+from .sockets import Input, NotConstantError, Source
 
 # The engine's bound: a phase function of exactly 1 or -1 scatters nothing at all.
 MAX_ANISOTROPY = 0.999

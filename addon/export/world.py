@@ -12,8 +12,10 @@ import numpy as np
 from ..scene.description import BLACK, Environment, Floats, Lamp, Medium, Rgb, SunLight
 from ..scene.problems import ENDLESS_FOG, Notices
 from ..scene.program import Op, TooLargeError, compile_program
+from .color import add_colors, lerp, scaled
 from .light import UNLIMITED_BOUNCES
-from .nodes import Input, Nodes, NotConstantError, Source, add_colors, lerp, scaled
+from .nodes import Nodes
+from .sockets import Input, NotConstantError, Source
 from .translate.image import Images
 from .translate.values import Triple, added, clamped
 from .translate.values import lerp as blended

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from .values import Value, number, op, triple
 
 if TYPE_CHECKING:
-    from ..nodes import Nodes, Source
+    from ..nodes import Nodes
+    from ..sockets import Source
 
 # Blender's names where they are not the engine's in capitals.
 MATH_NAMES = {"FRACT": "fraction"}

@@ -15,7 +15,8 @@ from .arithmetic import mix_inputs
 from .values import Number, Value, clamped, clamped_color, math, number, op, product, scaled, triple, vector_math
 
 if TYPE_CHECKING:
-    from ..nodes import Nodes, Source
+    from ..nodes import Nodes
+    from ..sockets import Source
 
 RAMP_ROWS = 256
 BLACKBODY_RANGE = (800.0, 12000.0)  # beyond it the colour stays

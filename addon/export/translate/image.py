@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...scene.program import Op, Texture
+from ..fold import read_image
 from .values import Triple, Value, math, number, op, triple, vector_math
 
 if TYPE_CHECKING:
-    from ..nodes import Nodes, Source
+    from ..nodes import Nodes
+    from ..sockets import Source
 
 MISSING = (1.0, 0.0, 1.0)  # what Cycles shows where an image cannot be read
 
@@ -74,8 +76,6 @@ class Images:
 
     def picture(self, image: Any) -> Any:
         """(height, width, 4) linear light, bottom row first; raises as `texture`."""
-        from ..nodes import read_image  # which imports this module
-
         return read_image(image)
 
 

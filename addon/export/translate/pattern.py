@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from .values import Number, Triple, Value, op, scaled
 
 if TYPE_CHECKING:
-    from ..nodes import Nodes, Source
+    from ..nodes import Nodes
+    from ..sockets import Source
 
 FRACTALS = {
     "FBM": "fbm",

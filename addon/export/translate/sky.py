@@ -20,7 +20,8 @@ from .surface import fact, place
 from .values import Number, Triple, Value, added, lerp, math, op, product, scaled
 
 if TYPE_CHECKING:
-    from ..nodes import Nodes, Source
+    from ..nodes import Nodes
+    from ..sockets import Source
 
 LIMB_DARKENING = 0.6
 LEAST_SUN = 1e-4  # radians

@@ -11,7 +11,8 @@ from ...scene.program import Op
 from .values import Triple, Value, number, op, triple, vector_math
 
 if TYPE_CHECKING:
-    from ..nodes import Nodes, Source
+    from ..nodes import Nodes
+    from ..sockets import Source
 
 # Names of attributes that Blender has no name for.
 ACTIVE_UV = "uv"

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from .values import Value, op, triple, vector_math
 
 if TYPE_CHECKING:
-    from ..nodes import Nodes, Source
+    from ..nodes import Nodes
+    from ..sockets import Source
 
 ZERO = (0.0, 0.0, 0.0)
 
