@@ -476,8 +476,9 @@ def test(blender: str | None, full: bool, extra: Sequence[str]) -> None:
     }
     if executable is not None:
         env["GLIMMER_BLENDER"] = str(executable)
-    if not extra:  # some tests alone take the newest Blender as it is, if it was made
+    if not extra:  # some tests alone take the newest Blender as it is, if it was made, and one process
         env |= newest_host()
+        extra = ["--numprocesses", str(os.cpu_count() or 1), "--dist", "loadfile"]
     run([python, "-m", "pytest", *(["--full"] if full else []), *extra], env=env)
 
 

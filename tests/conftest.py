@@ -4,8 +4,11 @@
 import os
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
+
+from tests.render.statistics import budget
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -37,6 +40,17 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if long:
         config.hook.pytest_deselected(items=long)
         items[:] = [item for item in items if not item.get_closest_marker("full")]
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """A worker among several tells how many comparisons of pictures it made: all workers share one level."""
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["comparisons"] = budget.used
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any, error: object) -> None:
+    budget.add(getattr(node, "workeroutput", {}).get("comparisons", 0))
 
 
 def product(variable: str, what: str, file: str = "") -> Path:

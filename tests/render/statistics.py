@@ -41,17 +41,22 @@ pool = ThreadPoolExecutor(os.cpu_count() or 1)
 
 
 @dataclass
-class _Budget:
+class Budget:
+    """How many of the comparisons were made so far: by this process, or, once its workers are done, by all of them."""
+
     used: int = field(default=0)
 
     def take(self, n: int) -> float:
         """The level of one comparison."""
-        self.used += n
-        assert self.used <= COMPARISONS, f"more than the {COMPARISONS} comparisons that the level was divided among"
+        self.add(n)
         return LEVEL / COMPARISONS
 
+    def add(self, n: int) -> None:
+        self.used += n
+        assert self.used <= COMPARISONS, f"more than the {COMPARISONS} comparisons that the level was divided among"
 
-_budget = _Budget()
+
+budget = Budget()
 
 
 @dataclass(frozen=True)
@@ -222,7 +227,7 @@ def check_mean(
     what: str = "",
 ) -> None:
     """compare_mean must pass; its level is a share of this run's."""
-    level = _budget.take(np.size(expected))
+    level = budget.take(np.size(expected))
     comparison = compare_mean(estimate, expected, level=level, within=within, rounding=rounding)
     _must_pass(comparison, within, what)
 
@@ -239,7 +244,7 @@ def check_same(
     The first is given even seeds, the other odd ones: nothing that both draw is shared.
     """
     numbers = np.size(a(PILOT)) + 1
-    level = _budget.take(numbers)
+    level = budget.take(numbers)
 
     def run(seeds: int, first: int) -> Interval:
         means, variances = [], []
