@@ -33,6 +33,13 @@ def list_integrators(
     return _integrator_items
 
 
+def _announce_change(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """That there is a function at all makes Blender tell 3D views of what a script changes."""
+
+
+_announce = of_group_and(_announce_change)
+
+
 class GlimmerSceneSettings(bpy.types.PropertyGroup):
     """How a scene is rendered. The first limit that is met ends the render."""
 
@@ -48,6 +55,13 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         default=1024,
         min=0,
         soft_max=65536,
+    )
+    preview_pause: bpy.props.BoolProperty(
+        name="Pause",
+        description="Stop rendering 3D views in rendered shading; what changes is still shown, in coarse pixels",
+        default=False,
+        options={"SKIP_SAVE"},
+        update=_announce,
     )
     use_seconds: bpy.props.BoolProperty(
         name="Time Limit", description="Stop after this render time, loading and building left out", default=False

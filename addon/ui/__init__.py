@@ -6,6 +6,7 @@ from . import (
     compatible,
     differences,
     error,
+    header,
     light,
     material,
     motion,
@@ -28,6 +29,7 @@ _PARTS = (
     light,
     material,
     world,
+    header,
     preferences,
 )
 

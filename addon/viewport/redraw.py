@@ -58,12 +58,17 @@ def _ask_for_redraws() -> None:
     for view, reference in list(_views.items()):
         engine = reference()
         try:
-            if view.session is not None:
-                view.session.pause(is_rendering)
+            view.pause(is_rendering)
             if engine is not None and view.wants_draw():
                 engine.tag_redraw()
         except ReferenceError:  # Blender has dropped the engine, and somebody still holds its shell
             _drop(view)
+
+
+@persistent  # type: ignore[untyped-decorator]
+def _on_render_init(*_: object) -> None:
+    """At once, and also where a script renders, which lets no timer run. The timer lets the views go on."""
+    session.pause_all(True)
 
 
 @persistent  # type: ignore[untyped-decorator]
@@ -79,9 +84,11 @@ def close_all() -> None:
 
 def register() -> None:
     bpy.app.handlers.load_pre.append(_on_load_pre)
+    bpy.app.handlers.render_init.append(_on_render_init)
 
 
 def unregister() -> None:
+    bpy.app.handlers.render_init.remove(_on_render_init)
     bpy.app.handlers.load_pre.remove(_on_load_pre)
     if bpy.app.timers.is_registered(_poll):
         bpy.app.timers.unregister(_poll)

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A picture that follows its scene: whoever draws hands in the newest description and takes whatever is there.
 
-No call waits for the engine: scenes are built and renders started and freed on a thread of the session's own, which
-lives as long as the session. A new scene appears in coarse pixels first, and in full once it has stood still a moment.
+No call waits for the engine: scenes are built, rendered and read on a thread of the session's own, which lives as long
+as the session. A new scene appears in coarse pixels first. Once it has stood still a moment it is rendered in full, and
+its tiles take the place of the coarse pixels one by one. Only one render is at work at any time.
 """
 
 from __future__ import annotations
 
 import threading
+import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,16 +27,33 @@ SETTLE_SECONDS = 0.2  # without a new scene, before the full picture replaces th
 POLL_SECONDS = 0.02
 # A view smaller than this is as quick in full.
 MIN_COARSE_PIXELS = 64 * 64
+# Between two readings of the pixels: ever longer, since noise falls ever more slowly.
+LEAST_REFRESH_SECONDS = 0.1
+MOST_REFRESH_SECONDS = 2.0
+REFRESH_GROWTH = 0.05  # of the time that has been rendered
+# Reading costs render time: no more than this share of it.
+MAX_REFRESH_SHARE = 0.1
+
+Pixels = NDArray[np.float32]
+Window = tuple[int, int, int, int]  # x0, y0, x1, y1 from the top left
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
     """The newest picture, linear."""
 
-    pixels: NDArray[np.float32]  # (height, width, 3), top row first
+    rgba: Pixels  # (height, width, 4), opaque, bottom row first: as textures begin
+    window: Window  # of the film, that the pixels are of
+    film_size: tuple[int, int]  # width and height of the film, in its pixels
     scene: int  # the number that `show` returned for what it shows
     scale: int  # 1 in full
     progress: Progress
+    is_whole: bool = True  # or parts of it are still as coarse as the picture before
+
+    @property
+    def pixels(self) -> Pixels:
+        """(height, width, 3), top row first."""
+        return self.rgba[::-1, :, :3]
 
 
 @dataclass(frozen=True)
@@ -44,16 +63,30 @@ class Counts:
     scenes: int = 0  # handed in
     built: int = 0
     meshes_created: int = 0
+    reads: int = 0
 
 
 @dataclass(eq=False)
 class _Running:
     render: NativeRender
-    size: tuple[int, int]
-    scene: int
+    scene: SceneDescription
+    number: int
     scale: int
-    seen: int = -1  # the version of its pixels that was handed out
+    started: float
+    canvas: Pixels | None = None  # coarse pixels that the tiles of a full picture go over
+    shown: tuple[int, bool] = (-1, False)  # the version of its pixels that was read last, and whether it is the end
+    shown_at: float = 0.0  # when the first were
+    read_again_at: float = 0.0
     is_paused: bool = False
+
+    @property
+    def window(self) -> Window:
+        return self.scene.film.window
+
+    @property
+    def whole(self) -> Tile:
+        x0, y0, x1, y1 = self.window
+        return Tile(0, 0, x1 - x0, y1 - y0)
 
 
 @dataclass(eq=False)
@@ -67,11 +100,28 @@ def reduced(scene: SceneDescription, scale: int) -> SceneDescription:
     """The same view in pixels of `scale` by `scale` as large."""
     film = scene.film
     width, height = -(-film.width // scale), -(-film.height // scale)
-    return replace(scene, film=replace(film, width=width, height=height))
+    crop = film.crop
+    if crop is not None:
+        crop = crop[0] // scale, crop[1] // scale, -(-crop[2] // scale), -(-crop[3] // scale)
+    return replace(scene, film=replace(film, width=width, height=height, crop=crop))
+
+
+def enlarged(frame: Frame, scale: int, window: Window) -> Pixels:
+    """A coarse picture in pixels of a film `scale` times as large, cut to a window of that."""
+    x0, y0 = frame.window[0] * scale, frame.window[1] * scale
+    rows = frame.rgba[::-1].repeat(scale, axis=0).repeat(scale, axis=1)
+    cut = rows[window[1] - y0 : window[3] - y0, window[0] - x0 : window[2] - x0]
+    return np.ascontiguousarray(cut[::-1])
+
+
+def paste(canvas: Pixels, tile: Tile, pixels: Pixels) -> None:
+    """canvas: (height, width, 4), bottom row first. pixels: (tile.height, tile.width, 3), top row first."""
+    bottom = canvas.shape[0] - tile.y - tile.height
+    canvas[bottom : bottom + tile.height, tile.x : tile.x + tile.width, :3] = pixels[::-1]
 
 
 class Session:
-    """Closed by `close`; until then one thread, and while there is a scene a render of it."""
+    """Closed by `close`; until then one thread, and while there is a scene that is not finished a render of it."""
 
     def __init__(self) -> None:
         self._meshes = MeshCache(load())
@@ -80,10 +130,12 @@ class Session:
         self._number = 0  # of the newest scene
         self._done = 0  # of the last that the thread took up
         self._is_closing = False
-        self._is_paused = False
+        self._is_paused = self._is_held = False
         self._running: _Running | None = None
+        self._frame: Frame | None = None
+        self._is_seen = True  # the frame
         self._failure: _Failure | None = None
-        self._built = 0
+        self._built = self._reads = 0
         self._thread = threading.Thread(target=self._work, name="Glimmer view", daemon=True)
         _open_sessions.add(self)
         self._thread.start()
@@ -94,41 +146,32 @@ class Session:
             self._wanted = scene
             self._number += 1
             if self._running is not None:
-                self._running.render.cancel()  # its pixels stay until there are others
-                if scene is None:
-                    self._running.seen = -1
+                self._running.render.cancel()
+            if scene is None:
+                self._frame = None
             self._changed.notify_all()
             return self._number
 
-    def pause(self, is_paused: bool) -> None:
-        """Leaves the machine to others, a final render above all."""
+    def pause(self, is_paused: bool, is_held: bool = False) -> None:
+        """Leaves the machine to others, a final render above all. is_held: as soon as the newest scene has any
+        picture."""
         with self._changed:
-            self._is_paused = is_paused
-            self._changed.notify_all()
+            if (self._is_paused, self._is_held) != (is_paused, is_held):
+                self._is_paused, self._is_held = is_paused, is_held
+                self._changed.notify_all()
 
     def has_news(self) -> bool:
         """Whether `frame` or `failure` would return something that they have not returned yet."""
         with self._changed:
             if self._failure is not None and self._failure.scene == self._number:
                 return not self._failure.is_told
-            running = self._running
-            if running is None or self._wanted is None:
-                return False
-            progress = running.render.poll()
-            return progress.samples > 0 and progress.version != running.seen
+            return self._frame is not None and not self._is_seen
 
     def frame(self) -> Frame | None:
         """The newest picture, also if it is an older scene's; None while there is none."""
         with self._changed:
-            running = self._running
-            if running is None or self._wanted is None:
-                return None
-            progress = running.render.poll()
-            if progress.samples == 0:
-                return None
-            running.seen = progress.version
-            pixels = running.render.read("combined", Tile(0, 0, *running.size))
-            return Frame(pixels, running.scene, running.scale, progress)
+            self._is_seen = True
+            return self._frame
 
     def failure(self) -> str | None:
         """Why there is no picture of the newest scene."""
@@ -140,7 +183,13 @@ class Session:
 
     def counts(self) -> Counts:
         with self._changed:
-            return Counts(self._number, self._built, self._meshes.created)
+            return Counts(self._number, self._built, self._meshes.created, self._reads)
+
+    def is_resting(self) -> bool:
+        """Whether no render is at work: all are paused, or what was wanted is finished."""
+        with self._changed:
+            running = self._running
+            return self._number == self._done and (running is None or running.is_paused)
 
     def close(self, wait: bool = False) -> None:
         """Ends the thread and frees everything; with `wait`, before this returns."""
@@ -156,94 +205,130 @@ class Session:
 
     def _work(self) -> None:
         while (job := self._next_job()) is not None:
-            scene, number, is_new = job
-            if not is_new:
-                self._apply_pause(self._running)
-            elif scene is None:
-                self._swap(None)
-            else:
+            scene, number = job
+            if scene is not None:
                 self._try_to_show(scene, number)
-        self._swap(None)
         self._meshes.clear()
         _open_sessions.discard(self)
 
-    def _next_job(self) -> tuple[SceneDescription | None, int, bool] | None:
-        """(the newest scene, its number, whether it was not handed out before); None at the end."""
-
-        def is_something_to_do() -> bool:
-            return self._is_closing or self._number != self._done or self._wants_pause(self._running)
-
+    def _next_job(self) -> tuple[SceneDescription | None, int] | None:
+        """(the newest scene, its number); None at the end."""
         with self._changed:
-            self._changed.wait_for(is_something_to_do)
+            self._changed.wait_for(lambda: self._is_closing or self._number != self._done)
             if self._is_closing:
                 return None
-            is_new, self._done = self._number != self._done, self._number
-            return self._wanted, self._number, is_new
+            self._done = self._number
+            return self._wanted, self._number
 
     def _try_to_show(self, scene: SceneDescription, number: int) -> None:
-        is_small = scene.film.width * scene.film.height <= MIN_COARSE_PIXELS
+        x0, y0, x1, y1 = scene.film.window
+        is_small = (x1 - x0) * (y1 - y0) <= MIN_COARSE_PIXELS
         try:
             for scale in (1,) if is_small else (COARSE, 1):
-                if not self._show_scaled(scene, number, scale):
+                if self._is_stale(number):
                     return
+                self._show_scaled(scene, number, scale)
         except Exception as error:  # noqa: BLE001 - on a thread of our own nobody else would hear of it
             with self._changed:
                 self._failure = _Failure(number, describe(error))
-            self._swap(None)
+                self._frame = None
 
-    def _show_scaled(self, scene: SceneDescription, number: int, scale: int) -> bool:
-        """False as soon as a newer scene is there."""
+    def _show_scaled(self, scene: SceneDescription, number: int, scale: int) -> None:
+        """Until a newer scene is there, the render has ended or, of a coarse one, it is time for the next."""
         smaller = reduced(scene, scale)
         render, _ = open_render(smaller, self._meshes)
-        running = _Running(render, (smaller.film.width, smaller.film.height), number, scale)
+        running = _Running(render, smaller, number, scale, time.monotonic())
+        with self._changed:
+            self._built += 1
+            older, self._running = self._frame, running
+        if scale == 1 and older is not None and older.scene == number:
+            running.canvas = enlarged(older, older.scale, running.window)
         try:
-            with self._changed:
-                self._built += 1
             render.start()
-            # The older picture stands until this one has something to show.
-            while not self._is_stale(number):
-                self._apply_pause(running)
-                progress = render.poll()
-                if progress.samples > 0 or progress.ended:
-                    break
-                render.wait(POLL_SECONDS)
-            else:
-                render.close()
-                return False
-        except BaseException:
-            render.close()
-            raise
-        self._swap(running)
-        if scale > 1:
+            self._watch(running)
+        finally:
             with self._changed:
-                self._changed.wait_for(lambda: self._is_closing or self._number != number, SETTLE_SECONDS)
-        return not self._is_stale(number)
+                self._running = None
+            render.close()
+
+    def _watch(self, running: _Running) -> None:
+        while not self._is_stale(running.number):
+            self._apply_pause(running)
+            progress = running.render.poll()
+            if progress.ended:
+                running.render.wait(-1.0)  # raises the reason of a failed one
+            self._refresh(running, progress)
+            if progress.ended and (running.scale == 1 or self._is_settled(running)):
+                return
+            if running.scale > 1 and not running.is_paused and self._is_settled(running):
+                return
+            with self._changed:
+                self._changed.wait_for(lambda: self._is_closing or self._number != running.number, POLL_SECONDS)
+
+    def _is_settled(self, running: _Running) -> bool:
+        return running.shown_at > 0.0 and time.monotonic() >= running.shown_at + SETTLE_SECONDS
+
+    def _refresh(self, running: _Running, progress: Progress) -> None:
+        """Reads the pixels where there are new ones and it is time."""
+        now = time.monotonic()
+        version = progress.version, progress.ended
+        if version == running.shown or (now < running.read_again_at and not progress.ended):
+            return
+        if progress.samples > 0:
+            running.canvas = None
+            rgba: Pixels = np.ones((running.whole.height, running.whole.width, 4), np.float32)
+            paste(rgba, running.whole, running.render.read("combined", running.whole))
+        elif running.canvas is None or not (tiles := running.render.changed_tiles()):
+            return
+        else:
+            for tile in tiles:
+                paste(running.canvas, tile, running.render.read("combined", tile))
+            rgba = running.canvas.copy()
+        running.shown = version
+        self._publish(running, rgba, progress)
+        end = time.monotonic()
+        running.shown_at = running.shown_at or end
+        pause = max(LEAST_REFRESH_SECONDS, REFRESH_GROWTH * (end - running.started), (end - now) / MAX_REFRESH_SHARE)
+        running.read_again_at = end + min(pause, MOST_REFRESH_SECONDS)
+
+    def _publish(self, running: _Running, rgba: Pixels, progress: Progress) -> None:
+        film = running.scene.film
+        frame = Frame(
+            rgba,
+            running.window,
+            (film.width, film.height),
+            running.number,
+            running.scale,
+            progress,
+            running.canvas is None,
+        )
+        with self._changed:
+            self._reads += 1
+            if self._wanted is not None:
+                self._frame, self._is_seen = frame, False
 
     def _is_stale(self, number: int) -> bool:
         with self._changed:
             return self._is_closing or self._number != number
 
-    def _wants_pause(self, running: _Running | None) -> bool:
-        """Or wants none where there is one."""
-        return running is not None and running.is_paused != self._is_paused
-
-    def _apply_pause(self, running: _Running | None) -> None:
+    def _apply_pause(self, running: _Running) -> None:
         # Pausing waits for the tiles that are under way: no work for the thread that draws.
-        if running is not None and self._wants_pause(running):
-            running.is_paused = not running.is_paused
-            if running.is_paused:
+        with self._changed:
+            is_wanted = self._is_paused or (self._is_held and running.shown_at > 0.0)
+        if running.is_paused != is_wanted:
+            if is_wanted:
                 running.render.pause()
             else:
                 running.render.resume()
-
-    def _swap(self, running: _Running | None) -> None:
-        with self._changed:
-            old, self._running = self._running, running
-        if old is not None:
-            old.render.close()
+            running.is_paused = is_wanted
 
 
 _open_sessions: OpenSet[Session] = OpenSet()
+
+
+def pause_all(is_paused: bool) -> None:
+    for session in _open_sessions.all():
+        session.pause(is_paused)
 
 
 def close_all() -> None:

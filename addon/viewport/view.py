@@ -19,10 +19,12 @@ from ..scene.description import Film, SceneDescription
 from ..scene.fingerprint import fingerprint
 from ..scene.problems import Notices, describe
 from . import draw
+from .border import border_crop, camera_frame
 from .session import Frame, Session
 
 # Reading the scene happens on the thread that draws the window: it gets no more than this share of it.
 MAX_READ_SHARE = 0.5
+SOURCES = 3  # items of a view's state that say what is seen, and not how
 
 
 class RenderedView:
@@ -37,6 +39,8 @@ class RenderedView:
         self._shown: SceneDescription | None = None
         self._shown_digest = b""
         self._failure = ""
+        self._differences = 0  # how many there were when the scene was last read
+        self._is_held = False
 
     def close(self) -> None:
         if self.session is not None:
@@ -46,6 +50,11 @@ class RenderedView:
 
     def scene_changed(self) -> None:
         self._is_dirty = True
+
+    def pause(self, is_rendering: bool) -> None:
+        """For a final render, which gets the whole machine; or as the artist has asked for."""
+        if self.session is not None:
+            self.session.pause(is_rendering, self._is_held)
 
     def wants_draw(self) -> bool:
         if self._is_dirty:
@@ -62,7 +71,11 @@ class RenderedView:
     # ---- Reading ----
 
     def _follow(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
-        seen = _view_state(context, depsgraph.scene_eval)
+        scene = depsgraph.scene_eval
+        seen = _view_state(context, depsgraph, scene)
+        self._is_held = scene.glimmer.preview_pause
+        if self._seen[:SOURCES] != seen[:SOURCES]:
+            self._is_dirty = True
         if self._is_dirty and time.monotonic() >= self._read_again_at:
             start = time.monotonic()
             self._is_dirty, self._seen = False, seen
@@ -76,7 +89,7 @@ class RenderedView:
             if self._shown is None:
                 self._is_dirty = True  # what was wrong may have been the view
             else:
-                view = self._view(context, depsgraph, depsgraph.scene_eval, Notices())
+                view = self._view(context, depsgraph, scene, Notices())
                 self._show(replace(self._shown, film=view.film, camera=view.camera, settings=view.settings))
 
     def _show(self, scene: SceneDescription) -> None:
@@ -102,13 +115,15 @@ class RenderedView:
         def is_shown(item: bpy.types.Object) -> bool:
             return not in_local_view or item.original.local_view_get(space)
 
-        return export_scene(
+        exported = export_scene(
             depsgraph,
             lambda scene, notices: self._view(context, depsgraph, scene, notices),
             bpy.app.version,
             self._readers,
             is_shown,
-        ).scene
+        )
+        self._differences = len(exported.notices)
+        return exported.scene
 
     def _view(
         self,
@@ -120,11 +135,11 @@ class RenderedView:
         space, region = context.space_data, context.region
         size = (max(region.width, 1), max(region.height, 1))
         camera = space.camera if space.use_local_camera else scene.camera
+        evaluated = None if camera is None else camera.evaluated_get(depsgraph)
+        crop = border_crop(_border(context, scene, evaluated), size)
         return View(
-            Film(*size, exposure=film_exposure(scene), **filter_settings(scene.glimmer)),
-            export_view(
-                space, context.region_data, None if camera is None else camera.evaluated_get(depsgraph), notices
-            ),
+            Film(*size, crop=crop, exposure=film_exposure(scene), **filter_settings(scene.glimmer)),
+            export_view(space, context.region_data, evaluated, notices),
             export_view_settings(scene),
         )
 
@@ -141,22 +156,66 @@ class RenderedView:
         frame = session.frame() if self.drawn is None or session.has_news() else None
         if frame is not None:
             self.drawn = frame
-            self._picture.set(frame.pixels)
-            line = status(frame.progress, depsgraph.scene_eval.glimmer.viewport_samples)
-            engine.update_stats("Glimmer", line if frame.scale == 1 else "Coarse")
+            self._picture.set(frame)
         elif self.drawn is None:
             engine.update_stats("Glimmer", "Building")
             return
+        engine.update_stats("Glimmer", self._status(self.drawn, depsgraph.scene_eval))
         self._picture.draw(engine, depsgraph.scene_eval, (context.region.width, context.region.height))
 
+    def _status(self, frame: Frame, scene: bpy.types.Scene) -> str:
+        parts = ["Paused"] if self._is_held else []
+        if frame.scale > 1:
+            parts.append("Coarse picture")
+        elif not frame.is_whole:
+            parts.append("Refining the coarse picture")
+        else:
+            parts.append(status(frame.progress, scene.glimmer.viewport_samples))
+        if self._differences:
+            things = "1 thing is" if self._differences == 1 else f"{self._differences} things are"
+            parts.append(f"{things} not rendered as in Cycles: see Render properties > Differs from Cycles")
+        return " | ".join(parts)
 
-def _view_state(context: bpy.types.Context, scene: bpy.types.Scene) -> tuple[Any, ...]:
-    """What a picture of a view depends on that Blender announces by a redraw alone."""
+
+def _border(
+    context: bpy.types.Context, scene: bpy.types.Scene, camera: bpy.types.Object | None
+) -> tuple[float, float, float, float] | None:
+    """What of the region is rendered: min_x, min_y, max_x, max_y from the bottom left in shares of it. None: all."""
+    space, region_view, render = context.space_data, context.region_data, scene.render
+    if region_view.view_perspective != "CAMERA" or camera is None or camera.type != "CAMERA":
+        if not space.use_render_border:
+            return None
+        return (
+            space.render_border_min_x,
+            space.render_border_min_y,
+            space.render_border_max_x,
+            space.render_border_max_y,
+        )
+    if not render.use_border:
+        return None
+    to_clip = region_view.perspective_matrix @ camera.matrix_world.normalized()
+    clipped = [to_clip @ corner.to_4d() for corner in camera.data.view_frame(scene=scene)]
+    x0, y0, x1, y1 = camera_frame([(point.x / point.w, point.y / point.w) for point in clipped])
+    return (
+        x0 + (x1 - x0) * render.border_min_x,
+        y0 + (y1 - y0) * render.border_min_y,
+        x0 + (x1 - x0) * render.border_max_x,
+        y0 + (y1 - y0) * render.border_max_y,
+    )
+
+
+def _view_state(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene) -> tuple[Any, ...]:
+    """What a picture of a view depends on that Blender announces by a redraw alone; what it is a picture of comes
+    first."""
     region_view, space = context.region_data, context.space_data
     matrices = [
         np.array(matrix, np.float64).tobytes() for matrix in (region_view.view_matrix, region_view.window_matrix)
     ]
+    camera = space.camera if space.use_local_camera else scene.camera
     return (
+        scene.name_full,
+        depsgraph.view_layer_eval.name,
+        space.local_view is not None,
         *matrices,
         export_view_settings(scene),
         scene.glimmer.filter,
@@ -168,5 +227,5 @@ def _view_state(context: bpy.types.Context, scene: bpy.types.Scene) -> tuple[Any
         space.clip_start,
         space.clip_end,
         space.use_local_camera,
-        space.local_view is not None,
+        _border(context, scene, None if camera is None else camera.evaluated_get(depsgraph)),
     )

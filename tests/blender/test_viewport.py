@@ -19,7 +19,9 @@ MOON, OTHER_MOON = (0.8, 0.05, 0.6), (0.05, 0.6, 0.8)
 @pytest.fixture(scope="module")
 def folder(blender_host: Host, display: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("viewport")
-    command = [str(blender_host.program), "--factory-startup", "--python", str(SCRIPT), "--", str(out)]
+    # A small window at the top of the display: software draws it.
+    options = ["--factory-startup", "--window-geometry", "0", "200", "800", "600"]
+    command = [str(blender_host.program), *options, "--python", str(SCRIPT), "--", str(out)]
     env = {**blender_host.env, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"}
     result = subprocess.run(command, env=env, capture_output=True, text=True, check=False, timeout=240)
     assert result.returncode == 0, f"exit status {result.returncode}\n{result.stdout[-3000:]}{result.stderr[-3000:]}"
@@ -68,6 +70,23 @@ def test_only_what_shows_restarts_it(facts: dict[str, Any]) -> None:
 def test_meshes_are_kept_until_they_change(facts: dict[str, Any]) -> None:
     created = [facts[name]["counts"]["meshes_created"] for name in ("first", "turned", "recolored", "reshaped")]
     assert created == [1, 1, 1, 2]
+
+
+def test_a_border_in_the_view_is_all_that_is_rendered(facts: dict[str, Any]) -> None:
+    width, height = facts["border"]["region"]
+    x0, y0, x1, y1 = facts["border"]["window"]
+    assert (y0, y1) == (0, pytest.approx(0.5 * height, abs=1))
+    assert (x0, x1) == (pytest.approx(0.25 * width, abs=1), pytest.approx(0.75 * width, abs=1))
+
+
+def test_the_pause_button_leaves_coarse_pixels(facts: dict[str, Any]) -> None:
+    assert facts["paused"]["is_resting"]
+    assert facts["paused"]["scale"] > 1
+
+
+def test_the_view_is_of_the_windows_view_layer(facts: dict[str, Any]) -> None:
+    """The moon is hidden in the second."""
+    assert facts["second view layer"]["moon"] == pytest.approx(WORLD, rel=1e-6)
 
 
 def test_a_final_render_beside_it_leaves_both_whole(folder: Path, facts: dict[str, Any]) -> None:

@@ -76,6 +76,19 @@ def note(name: str) -> None:
     facts[name] = entry
 
 
+def note_window(name: str) -> None:
+    shown = view()
+    assert shown is not None and shown.session is not None and shown.drawn is not None
+    region = space()[2]
+    facts[name] = {
+        "counts": asdict(shown.session.counts()),
+        "window": shown.drawn.window,
+        "region": (region.width, region.height),
+        "scale": shown.drawn.scale,
+        "is_resting": shown.session.is_resting(),
+    }
+
+
 def moon_pixel() -> tuple[int, int]:
     """Row from the top and column of the moon's centre, by Blender's own reckoning."""
     _, current, region = space()
@@ -151,6 +164,40 @@ def steps() -> Iterator[Callable[[], bool]]:
     space()[2].tag_redraw()
     yield lambda: is_settled() and view().session.counts().scenes > facts["reshaped"]["counts"]["scenes"]  # type: ignore[union-attr]
     note("orthographic")
+
+    space()[1].region_3d.view_perspective = "PERSP"
+    space()[1].use_render_border = True
+    space()[1].render_border_min_x, space()[1].render_border_max_x = 0.25, 0.75
+    space()[1].render_border_min_y, space()[1].render_border_max_y = 0.5, 1.0
+    space()[2].tag_redraw()
+    yield lambda: is_settled() and view().session.counts().scenes > facts["orthographic"]["counts"]["scenes"]  # type: ignore[union-attr]
+    note_window("border")
+    space()[1].use_render_border = False
+    space()[2].tag_redraw()
+    yield lambda: is_settled() and view().session.counts().scenes > facts["border"]["counts"]["scenes"]  # type: ignore[union-attr]
+
+    bpy.context.scene.glimmer.preview_pause = True
+    yield lambda: view().session._is_held  # type: ignore[union-attr]
+    paused = view().session.counts().scenes  # type: ignore[union-attr]
+    moon_color(MOON)
+    yield lambda: view().session.counts().scenes > paused and view().drawn.scene > paused  # type: ignore[union-attr]
+    yield waiting(1.0)
+    note_window("paused")
+    bpy.context.scene.glimmer.preview_pause = False
+    moon_color(OTHER_MOON)
+    yield lambda: is_settled() and view().session.counts().scenes > facts["paused"]["counts"]["scenes"]  # type: ignore[union-attr]
+
+    window, first_layer = bpy.context.window_manager.windows[0], bpy.context.window.view_layer
+    second_layer = bpy.context.scene.view_layers.new("Second")
+    bpy.data.objects["Moon"].hide_set(True, view_layer=second_layer)
+    window.view_layer = second_layer
+    yield waiting(1.0)
+    yield is_settled
+    note("second view layer")
+    window.view_layer = first_layer
+    bpy.context.scene.view_layers.remove(second_layer)
+    yield waiting(1.0)
+    yield is_settled
 
     camera = bpy.context.scene.camera.data
     camera.shift_x, camera.shift_y = 0.1, -0.15
