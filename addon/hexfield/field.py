@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from . import node_group, properties
+from . import node_group, properties, slots
 from .layout import FieldLayout, check, lay_out
 from .naming import natural_key
 from .parameters import FieldParameters, Part
@@ -49,6 +49,7 @@ def rebuild(obj: Any, parameters: FieldParameters) -> None:
     if obj.type != "MESH" or obj.library is not None or obj.data.library is not None or obj.data.is_editmode:
         return
     _rebuild_points(obj, parameters)
+    slots.follow_pointers(obj)
     _rebuild_plates(obj, parameters)
 
 

@@ -23,6 +23,17 @@ def ensure() -> Any:
     return group
 
 
+def realizing() -> Any:
+    """A new group that turns instances into faces."""
+    group = bpy.data.node_groups.new("Glimmer Real Plates", "GeometryNodeTree")
+    _add_sockets(group)
+    group_input, group_output = _node(group, "NodeGroupInput", 0, 0), _node(group, "NodeGroupOutput", 400, 0)
+    realize = _node(group, "GeometryNodeRealizeInstances", 200, 0)
+    group.links.new(group_input.outputs["Geometry"], realize.inputs["Geometry"])
+    group.links.new(realize.outputs["Geometry"], group_output.inputs["Geometry"])
+    return group
+
+
 def find_modifier(obj: Any) -> Any:
     """The modifier of an object that uses such a group, or None."""
     for modifier in obj.modifiers:
@@ -53,16 +64,21 @@ def _plates_socket(group: Any) -> str:
     return str(next(socket.identifier for socket in sockets if socket.name == "Plates"))
 
 
-def _build(group: Any) -> None:
-    if hasattr(group, "interface"):  # 4.0
-        group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
-        group.interface.new_socket("Plates", in_out="INPUT", socket_type="NodeSocketCollection")
+def _add_sockets(group: Any, *inputs: tuple[str, str]) -> None:
+    """Geometry in and out, and more inputs (kind, name)."""
+    for kind, name in (("NodeSocketGeometry", "Geometry"), *inputs):
+        if hasattr(group, "interface"):  # 4.0
+            group.interface.new_socket(name, in_out="INPUT", socket_type=kind)
+        else:
+            group.inputs.new(kind, name)
+    if hasattr(group, "interface"):
         group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     else:
-        group.inputs.new("NodeSocketGeometry", "Geometry")
-        group.inputs.new("NodeSocketCollection", "Plates")
         group.outputs.new("NodeSocketGeometry", "Geometry")
 
+
+def _build(group: Any) -> None:
+    _add_sockets(group, ("NodeSocketCollection", "Plates"))
     group_input = _node(group, "NodeGroupInput", 0, 0)
     group_output = _node(group, "NodeGroupOutput", 600, 0)
     plates = _node(group, "GeometryNodeCollectionInfo", 150, -150)

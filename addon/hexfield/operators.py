@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add > Mesh > Glimmer Hexagon Field."""
+"""Add > Glimmer > Hexagon Field, and what makes its plates a mesh of their own."""
 
 from typing import Any
 
 import bpy
 
-from . import field, properties
+from . import field, node_group, properties
 from .layout import check
 from .panel import draw_parameters
 from .parameters import SECTIONS
@@ -15,7 +15,7 @@ class GLIMMER_OT_add_hexagon_field(bpy.types.Operator):
     """Add hills of bevelled hexagonal plates, as instances; its parameters stay live in the object's data properties"""
 
     bl_idname = "glimmer.add_hexagon_field"
-    bl_label = "Glimmer Hexagon Field"
+    bl_label = "Hexagon Field"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -69,15 +69,58 @@ def metal(name: str, color: tuple[float, float, float], roughness: float) -> Any
     return material
 
 
-def _draw_menu(self: Any, _context: Any) -> None:
-    self.layout.operator(GLIMMER_OT_add_hexagon_field.bl_idname, icon="MOD_ARRAY")
+class GLIMMER_OT_make_plates_real(bpy.types.Operator):
+    """Turn the field into one mesh of all its plates, to be edited or sculpted. Convert and Apply do not do that: they
+    leave no faces"""
+
+    bl_idname = "glimmer.make_plates_real"
+    bl_label = "Make Plates Real"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        obj = context.object
+        return context.mode == "OBJECT" and obj is not None and obj.type == "MESH" and obj.glimmer_field.enabled
+
+    def execute(self, context: Any) -> set[str]:
+        obj = context.object
+        if obj.library is not None or obj.override_library is not None:
+            self.report({"ERROR"}, f"{obj.name} is linked from another file: make it local first")
+            return {"CANCELLED"}
+        mesh = real_mesh(context, obj)
+        obj.glimmer_field.enabled = False
+        modifier = node_group.find_modifier(obj)
+        if modifier is not None:
+            node_group.set_plates(modifier, None)  # whose users are not counted down by removing it (5.3)
+            obj.modifiers.remove(modifier)
+        obj.data = mesh
+        for slot in obj.material_slots:
+            slot.link = "DATA"
+        field.sweep()
+        return {"FINISHED"}
+
+
+def real_mesh(context: Any, obj: Any) -> Any:
+    """A new mesh of all that a field shows, with its materials."""
+    group = node_group.realizing()
+    modifier = obj.modifiers.new(group.name, "NODES")
+    modifier.node_group = group
+    try:
+        depsgraph = context.evaluated_depsgraph_get()
+        return bpy.data.meshes.new_from_object(obj.evaluated_get(depsgraph), depsgraph=depsgraph)
+    finally:
+        obj.modifiers.remove(modifier)
+        bpy.data.node_groups.remove(group)
+
+
+_CLASSES = (GLIMMER_OT_add_hexagon_field, GLIMMER_OT_make_plates_real)
 
 
 def register() -> None:
-    bpy.utils.register_class(GLIMMER_OT_add_hexagon_field)
-    bpy.types.VIEW3D_MT_mesh_add.append(_draw_menu)
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_mesh_add.remove(_draw_menu)
-    bpy.utils.unregister_class(GLIMMER_OT_add_hexagon_field)
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)

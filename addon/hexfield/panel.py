@@ -38,9 +38,15 @@ def _draw_field(self: Any, context: Any) -> None:
     if obj.animation_data is not None and not context.scene.render.use_lock_interface:
         layout.label(text="Animated: lock the interface while rendering", icon="INFO")
         layout.prop(context.scene.render, "use_lock_interface")
-    layout.label(text=f"{len(obj.data.vertices)} plates")
-    layout.prop(obj.glimmer_field, "plate_material")
-    layout.prop(obj.glimmer_field, "bevel_material")
+    row = layout.row()
+    row.label(text=f"Field of {len(obj.data.vertices)} plates")
+    row.operator("glimmer.make_plates_real")
+    layout.use_property_split = False
+    column = layout.column()
+    for name, label in (("plate_material", "Plates"), ("bevel_material", "Bevels")):
+        split = column.split(factor=0.25)
+        split.label(text=label)
+        split.template_ID(obj.glimmer_field, name, new="material.new")
 
 
 def _draw_section(section: str) -> Callable[[Any, Any], None]:
@@ -52,16 +58,22 @@ def _draw_section(section: str) -> Callable[[Any, Any], None]:
 
 
 # The same panels stand in the data properties and in the sidebar of the viewport.
-_PLACES = {
-    "GLIMMER_PT_hexagon_field": {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "data"},
+_PLACES: dict[str, dict[str, Any]] = {
+    "GLIMMER_PT_hexagon_field": {
+        "bl_space_type": "PROPERTIES",
+        "bl_region_type": "WINDOW",
+        "bl_context": "data",
+        "bl_options": {"HIDE_HEADER"},  # what has no header stands above all of Blender's panels
+    },
     "GLIMMER_PT_hexagon_field_sidebar": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Glimmer"},
 }
 
 
-def _panels(name: str, place: dict[str, str]) -> list[type]:
+def _panels(name: str, place: dict[str, Any]) -> list[type]:
     """The panel of a place and its children, one a section."""
     common = {**place, "poll": classmethod(lambda _cls, context: _is_field(context))}
     parent = type(name, (bpy.types.Panel,), {**common, "bl_label": "Hexagon Field", "draw": _draw_field})
+    common.pop("bl_options", None)
     children = [
         type(
             f"{name}_{section.lower()}",

@@ -80,7 +80,7 @@ class FieldParameters:
 
     plate_radius: float = _parameter(
         1.0,
-        "Plate Radius",
+        "Radius",
         "From the centre of a plate to its corners",
         _LAYOUT | _PLATES,
         _PLATE,
@@ -95,7 +95,7 @@ class FieldParameters:
     )
     bevel_width: float = _parameter(
         0.08,
-        "Bevel Width",
+        "Bevel",
         "Radius of the rounded edges; at most 0.9 of what fits",
         _PLATES,
         _PLATE,
@@ -104,8 +104,8 @@ class FieldParameters:
     )
     bevel_segments: int = _parameter(
         3,
-        "Bevel Segments",
-        "Facets across a rounded edge",
+        "Segments",
+        "Facets across a rounded edge, the bevel",
         _PLATES,
         _PLATE,
         minimum=1,
@@ -114,12 +114,12 @@ class FieldParameters:
         animatable=False,
     )
     bevel_smooth: bool = _parameter(
-        True, "Smooth Bevels", "Shade the rounded edges as if they had no facets", _PLATES, _PLATE, animatable=False
+        True, "Smooth", "Shade the rounded edges as if they had no facets", _PLATES, _PLATE, animatable=False
     )
 
     hill_height: float = _parameter(
         1.5,
-        "Hill Height",
+        "Height",
         "The hills stay within this of the plane, up and down",
         _LAYOUT,
         _HILLS,
@@ -128,7 +128,7 @@ class FieldParameters:
     )
     hill_wavelength: float = _parameter(
         25.0,
-        "Wavelength",
+        "Length",
         "Distance of the largest hills",
         _LAYOUT,
         _HILLS,
@@ -140,7 +140,7 @@ class FieldParameters:
         3, "Octaves", "Layers of ever smaller hills; each has half the size", _LAYOUT, _HILLS, minimum=1, maximum=12
     )
     hill_follow: float = _parameter(
-        0.0, "Follow Slope", "0: plates lie level, as steps; 1: they lean with the hill", _LAYOUT, _HILLS, maximum=1.0
+        0.0, "Follow", "0: plates lie level, as steps; 1: they lean with the hill", _LAYOUT, _HILLS, maximum=1.0
     )
 
     mutation_height: float = _parameter(
@@ -177,7 +177,7 @@ class FieldParameters:
     )
     mutation_bevel: float = _parameter(
         0.15,
-        "Bevel Roughness",
+        "Bumps",
         "Bumps on the rounded edges, as a share of the bevel width",
         _PLATES,
         _MUTATION,
@@ -185,8 +185,8 @@ class FieldParameters:
     )
     prototypes: int = _parameter(
         8,
-        "Prototypes",
-        "Different plates to choose from",
+        "Variants",
+        "Different plates that the field is made of",
         _LAYOUT | _PLATES,
         _MUTATION,
         minimum=1,

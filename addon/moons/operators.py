@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add > Light > Glimmer Moon, and Add > Glimmer Five Moons (under Light too)."""
+"""Add > Glimmer > Moon, and Five Moons."""
 
 from typing import Any
 
@@ -15,7 +15,7 @@ class GLIMMER_OT_add_moon(bpy.types.Operator):
     """Add an opaque sphere that shines evenly in all directions"""
 
     bl_idname = "glimmer.add_moon"
-    bl_label = "Glimmer Moon"
+    bl_label = "Moon"
     bl_options = {"REGISTER", "UNDO"}
 
     radius: bpy.props.FloatProperty(  # type: ignore[valid-type]
@@ -25,7 +25,11 @@ class GLIMMER_OT_add_moon(bpy.types.Operator):
         name="Color", subtype="COLOR", size=3, default=(1.0, 0.93, 0.82), min=0.0, max=1.0
     )
     radiance: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Radiance", description="Of white, in W/(m² sr)", default=20.0, min=0.0, soft_max=1000.0
+        name="Strength",
+        description="Radiance of the moon times its colour, in W/(m² sr)",
+        default=20.0,
+        min=0.0,
+        soft_max=1000.0,
     )
 
     @classmethod
@@ -42,7 +46,7 @@ class GLIMMER_OT_add_five_moons(bpy.types.Operator):
     """Add the red, the green, the white, the blue and the black moon above the horizon that the camera looks to"""
 
     bl_idname = "glimmer.add_five_moons"
-    bl_label = "Glimmer Five Moons"
+    bl_label = "Five Moons"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -89,26 +93,11 @@ def _select(context: Any, objects: list[Any]) -> None:
 _CLASSES = (GLIMMER_OT_add_moon, GLIMMER_OT_add_five_moons)
 
 
-def _draw_light_menu(self: Any, _context: Any) -> None:
-    self.layout.separator()
-    self.layout.operator(GLIMMER_OT_add_moon.bl_idname, icon="SPHERE")
-    self.layout.operator(GLIMMER_OT_add_five_moons.bl_idname, icon="SPHERE")
-
-
-def _draw_add_menu(self: Any, _context: Any) -> None:
-    self.layout.separator()
-    self.layout.operator(GLIMMER_OT_add_five_moons.bl_idname, icon="SPHERE")
-
-
 def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.VIEW3D_MT_light_add.append(_draw_light_menu)
-    bpy.types.VIEW3D_MT_add.append(_draw_add_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_add.remove(_draw_add_menu)
-    bpy.types.VIEW3D_MT_light_add.remove(_draw_light_menu)
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

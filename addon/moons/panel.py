@@ -17,17 +17,19 @@ class _MoonPanel:
 
     def draw(self, context: Any) -> None:
         layout = self.layout  # type: ignore[attr-defined]
+        layout.label(text="Moon", icon="SPHERE")
         layout.use_property_split = True
         node = emission_node(context.object)
         layout.prop(context.object.glimmer_moon, "radius")
         layout.prop(node.inputs["Color"], "default_value", text="Color")
-        layout.prop(node.inputs["Strength"], "default_value", text="Radiance")
+        layout.prop(node.inputs["Strength"], "default_value", text="Strength")
 
 
 class GLIMMER_PT_moon(_MoonPanel, bpy.types.Panel):
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "data"
+    bl_options = {"HIDE_HEADER"}  # what has no header stands above all of Blender's panels
 
 
 class GLIMMER_PT_moon_sidebar(_MoonPanel, bpy.types.Panel):

@@ -2,6 +2,7 @@
 """The panels: Blender's own that apply to us, and ours."""
 
 from . import (
+    add_menu,
     camera,
     compatible,
     differences,
@@ -30,6 +31,7 @@ _PARTS = (
     material,
     world,
     header,
+    add_menu,
     preferences,
 )
 

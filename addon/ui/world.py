@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..haze import nodes as haze
 from .panel import GlimmerPanel, draw_node_input
 
 
@@ -30,15 +31,37 @@ class GLIMMER_PT_world_volume(_WorldPanel, bpy.types.Panel):
     bl_label = "Haze"
 
     def draw(self, context: bpy.types.Context) -> None:
-        world = context.world
+        layout, world = self.layout, context.world
+        layout.use_property_split = True
+        node = haze.node_of(world)
+        if node is not None:
+            layout.prop(world.glimmer_haze, "visual_range")
+            for name in ("Color", "Anisotropy"):
+                layout.prop(node.inputs[name], "default_value", text=name)
+        elif not _has_volume(world):
+            layout.operator("glimmer.add_haze", text="Add Haze", icon="ADD")
+
+
+class GLIMMER_PT_world_volume_nodes(_WorldPanel, bpy.types.Panel):
+    bl_label = "Volume Nodes"
+    bl_parent_id = "GLIMMER_PT_world_volume"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.world.use_nodes
+
+    def draw(self, context: bpy.types.Context) -> None:
         self.layout.use_property_split = True
-        if world.use_nodes:
-            draw_node_input(self.layout, world.node_tree, "Volume")
-        else:
-            self.layout.label(text="Haze needs the world's nodes", icon="INFO")
+        draw_node_input(self.layout, context.world.node_tree, "Volume")
 
 
-_CLASSES = (GLIMMER_PT_world_surface, GLIMMER_PT_world_volume)
+def _has_volume(world: bpy.types.World) -> bool:
+    output = world.node_tree.get_output_node("CYCLES") if world.use_nodes and world.node_tree is not None else None
+    return output is not None and output.inputs["Volume"].is_linked
+
+
+_CLASSES = (GLIMMER_PT_world_surface, GLIMMER_PT_world_volume, GLIMMER_PT_world_volume_nodes)
 
 
 def register() -> None:

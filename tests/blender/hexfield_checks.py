@@ -3,8 +3,8 @@
 
     blender -b --python hexfield_checks.py -- OUT.json     or     python hexfield_checks.py OUT.json
 
-Every function of CHECKS starts from an empty file. OUT.json holds "" or a traceback for each. Only hexfield and moons
-are registered, so that nothing here depends on the engine's library.
+Every function of CHECKS starts from an empty file. OUT.json holds "" or a traceback for each. Only what adds things
+is registered, so that nothing here depends on the engine's library.
 """
 
 import json
@@ -25,8 +25,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 from addon_parts import load
 from moon_checks import (
     a_new_file_shows_field_and_moons,
+    a_world_is_added_in_one_step,
     five_moons_are_in_the_picture,
-    menus_offer_what_the_readme_names,
+    the_menu_adds_all_there_is,
 )
 
 FieldParameters = load("hexfield.parameters").FieldParameters
@@ -179,6 +180,61 @@ def materials_reach_the_plates() -> None:
         assert list(prototype.data.materials) == [top, bevel]
         assert {polygon.material_index for polygon in prototype.data.polygons} == {0, 1}
         assert not prototype.data.validate()
+
+
+def slots_are_the_materials() -> None:
+    """Blender's own tools change the plates' materials by the object's slots, each field of a shared mesh its own."""
+    top, bevel, gold = (bpy.data.materials.new(name) for name in ("Top", "Bevel", "Gold"))
+    obj = field.create("Field", FieldParameters(rings=2), top, bevel, bpy.context.scene.collection)
+    twin = obj.copy()
+    bpy.context.scene.collection.objects.link(twin)
+    assert [slot.material for slot in obj.material_slots] == [top, bevel]
+    obj.material_slots[1].material = gold
+    bpy.context.view_layer.update()
+    assert obj.glimmer_field.bevel_material == gold
+    assert all(list(p.data.materials) == [top, gold] for p in field.prototypes(plates_of(obj)))
+    assert all(list(p.data.materials) == [top, bevel] for p in field.prototypes(plates_of(twin)))
+    obj.glimmer_field.plate_material = gold
+    assert [slot.material for slot in obj.material_slots] == [gold, gold]
+    obj.data.materials.pop()
+    obj.update_tag()
+    bpy.context.view_layer.update()
+    assert [slot.material for slot in obj.material_slots] == [gold, gold], "a slot that was removed stays away"
+    assert not any(p.data.polygons for p in (obj, twin))
+
+
+def plates_become_a_mesh() -> None:
+    top, bevel = bpy.data.materials.new("Top"), bpy.data.materials.new("Bevel")
+    obj = field.create("Field", FieldParameters(rings=2, bevel_segments=1), top, bevel, bpy.context.scene.collection)
+    obj.location = (1.0, 2.0, 3.0)
+    faces = [len(p.data.polygons) for p in field.prototypes(plates_of(obj))]
+    bpy.context.view_layer.objects.active = obj
+    assert bpy.ops.glimmer.make_plates_real() == {"FINISHED"}
+    assert not obj.glimmer_field.enabled and not obj.modifiers
+    assert min(faces) * 19 <= len(obj.data.polygons) <= max(faces) * 19
+    assert [slot.material for slot in obj.material_slots] == [top, bevel]
+    assert {polygon.material_index for polygon in obj.data.polygons} == {0, 1}
+    assert tuple(obj.location) == (1.0, 2.0, 3.0)
+    assert ours()[0] == 0, ours()  # of collections of plates
+    assert not bpy.ops.glimmer.make_plates_real.poll()
+    assert "Glimmer Real Plates" not in bpy.data.node_groups
+
+
+def haze_takes_one_click() -> None:
+    bpy.context.scene.world = None
+    assert bpy.ops.glimmer.add_haze(visual_range=200.0, color=(0.5, 0.6, 0.7), anisotropy=0.4) == {"FINISHED"}
+    world = bpy.context.scene.world
+    assert math.isclose(world.glimmer_haze.visual_range, 200.0, rel_tol=1e-5)
+    nodes = load("export.nodes").Nodes(world.node_tree, "world", load("scene.problems").Notices())
+    medium = load("export.volume").volume_medium(nodes, nodes.surface_of_output("Volume"))
+    extinction = [a + s for a, s in zip(medium.sigma_a, medium.sigma_s, strict=True)]
+    # What is left of the contrast at that distance; and the colour is how much of it is scattered.
+    assert np.allclose(np.exp(-200.0 * np.array(extinction)), 0.02, rtol=1e-4)
+    assert np.allclose(np.array(medium.sigma_s) / extinction, (0.5, 0.6, 0.7), rtol=1e-5)
+    assert math.isclose(medium.g, 0.4, rel_tol=1e-6)
+    world.glimmer_haze.visual_range = 50.0
+    node = load("haze.nodes").node_of(world)
+    assert math.isclose(node.inputs["Density"].default_value, math.log(50.0) / 50.0, rel_tol=1e-6)
 
 
 def fields_share_plates_until_they_differ() -> None:
@@ -428,6 +484,9 @@ CHECKS: tuple[Callable[[], None], ...] = (
     empty_field,
     every_parameter_is_live,
     materials_reach_the_plates,
+    slots_are_the_materials,
+    plates_become_a_mesh,
+    haze_takes_one_click,
     fields_share_plates_until_they_differ,
     copies_live_their_own_life,
     deleted_fields_leave_nothing,
@@ -438,14 +497,16 @@ CHECKS: tuple[Callable[[], None], ...] = (
     operators_add_field_and_moons,
     five_moons_are_in_the_picture,
     a_new_file_shows_field_and_moons,
-    menus_offer_what_the_readme_names,
+    a_world_is_added_in_one_step,
+    the_menu_adds_all_there_is,
     registration_goes_both_ways,
 )
 
 
 def main(path: str) -> None:
-    load("hexfield").register()
-    load("moons").register()
+    parts = [load(name) for name in ("hexfield", "moons", "haze", "operators.five_moons_world", "ui.add_menu")]
+    for part in parts:
+        part.register()
     results = {}
     for check in CHECKS:
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -455,8 +516,8 @@ def main(path: str) -> None:
         except Exception:  # noqa: BLE001 (whatever a check raises is its result)
             results[check.__name__] = traceback.format_exc()
     Path(path).write_text(json.dumps({"version": bpy.app.version_string, "results": results}))
-    load("moons").unregister()
-    load("hexfield").unregister()
+    for part in reversed(parts):
+        part.unregister()
 
 
 if __name__ == "__main__":

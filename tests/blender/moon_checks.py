@@ -105,28 +105,36 @@ def _assert_field_and_moons_are_seen() -> None:
 
 
 class _Layout:
-    """Notes which operators a menu draws."""
+    """Notes which operators and menus a menu draws."""
 
     def __init__(self) -> None:
-        self.operators: list[str] = []
+        self.drawn: list[str] = []
 
     def operator(self, name: str, **_: Any) -> None:
-        self.operators.append(name)
+        self.drawn.append(name)
+
+    menu = operator
 
     def separator(self) -> None:
         pass
 
 
-def menus_offer_what_the_readme_names() -> None:
-    drawn = {}
-    for menu in (bpy.types.VIEW3D_MT_add, bpy.types.VIEW3D_MT_light_add, bpy.types.VIEW3D_MT_mesh_add):
-        layout = _Layout()
-        for function in menu.draw._draw_funcs:
-            if function.__module__.split(".")[-1] == "operators":
-                function(types.SimpleNamespace(layout=layout), bpy.context)
-        drawn[menu.__name__.split("_")[-2:][0]] = layout.operators
-    assert drawn == {
-        "MT": ["glimmer.add_five_moons"],
-        "light": ["glimmer.add_moon", "glimmer.add_five_moons"],
-        "mesh": ["glimmer.add_hexagon_field"],
-    }, drawn
+def the_menu_adds_all_there_is() -> None:
+    layout = _Layout()
+    for function in bpy.types.VIEW3D_MT_add.draw._draw_funcs:
+        if function.__module__.split(".")[-1] == "add_menu":
+            function(types.SimpleNamespace(layout=layout), bpy.context)
+    assert layout.drawn == ["GLIMMER_MT_add"]
+    bpy.types.GLIMMER_MT_add.draw(types.SimpleNamespace(layout=layout), bpy.context)
+    added = {f"glimmer.{name}" for name in dir(bpy.ops.glimmer) if name.startswith("add_")}
+    assert set(layout.drawn[1:]) == added, (layout.drawn, added)
+
+
+def a_world_is_added_in_one_step() -> None:
+    bpy.ops.wm.read_factory_settings()
+    assert bpy.ops.glimmer.add_world() == {"FINISHED"}
+    _assert_field_and_moons_are_seen()
+    assert load("haze.nodes").node_of(bpy.context.scene.world) is not None
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert bpy.ops.glimmer.add_world() == {"FINISHED"}  # and without a camera or a world
+    _assert_field_and_moons_are_seen()
