@@ -64,7 +64,8 @@ class GlimmerRenderEngine(bpy.types.RenderEngine):
         self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
     ) -> None:
         for item in passes.enabled(renderlayer):
-            self.register_pass(scene, renderlayer, item.blender_name, len(item.channels), item.channels, item.kind)
+            name = item.name(bpy.app.version)
+            self.register_pass(scene, renderlayer, name, len(item.channels), item.channels, item.kind)
 
 
 def register() -> None:

@@ -11,7 +11,7 @@ import bpy
 
 from . import reports
 from .export.camera import export_camera
-from .export.film import export_film, export_settings
+from .export.film import export_film, export_settings, note_missing_passes
 from .export.instance import BulkReader
 from .export.scene import Exported, View, export_scene
 from .film import passes
@@ -36,7 +36,7 @@ class RenderJob:
 
     def run(self, engine: bpy.types.RenderEngine) -> None:
         for item in self.passes[1:]:
-            engine.add_pass(item.blender_name, len(item.channels), item.channels, layer=self.layer)
+            engine.add_pass(item.name(bpy.app.version), len(item.channels), item.channels, layer=self.layer)
         engine.update_stats("", "Building")
         render, _ = open_render(self.exported.scene)
         with render:
@@ -45,7 +45,7 @@ class RenderJob:
                 reports.update(reports.collect(report, self.exported), self.layer)
 
             is_final = not engine.is_preview
-            display = Display(engine, render, self.exported.scene, self.passes, self.layer, watch if is_final else None)
+            display = Display(engine, render, self.exported.scene, self.layer, watch if is_final else None)
             display.run()
             report = reports.collect(render.report(), self.exported)
         if is_final:
@@ -75,6 +75,8 @@ def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> J
 
     def camera_view(scene: bpy.types.Scene, notices: Notices) -> View:
         film = export_film(scene, notices)
+        if not engine.is_preview:
+            note_missing_passes(depsgraph.view_layer_eval, notices)
         camera = engine.camera_override or scene.camera
         evaluated = None if camera is None else camera.evaluated_get(depsgraph)
         return View(

@@ -12,7 +12,7 @@ import numpy as np
 from ..scene.problems import GlimmerError, Notice, Notices
 from ..scene.program import Texture
 from .camera import export_camera
-from .film import export_film
+from .film import export_film, note_missing_passes
 from .motion import read_shutter
 from .scene import take_notices
 from .translate.image import Images
@@ -49,6 +49,7 @@ def find_differences(depsgraph: bpy.types.Depsgraph, version: tuple[int, ...]) -
     images = BlankImages(scene.frame_current)
     try:
         film = export_film(scene, notices)
+        note_missing_passes(depsgraph.view_layer_eval, notices)
         camera = scene.camera.evaluated_get(depsgraph) if scene.camera is not None else None
         export_camera(camera, (film.width, film.height), notices)
         if depsgraph.view_layer_eval.use_motion_blur:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..film.passes import RenderPass
-from ..scene.description import Film, RenderSettings
+from ..film.passes import RenderPass, engine_names, missing
+from ..scene.description import Film, Mist, RenderSettings
 from ..scene.problems import GlimmerError, Notices
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 # A material preview is small and must come at once.
 PREVIEW_SAMPLES = 32
 PREVIEW_SECONDS = 2.0
+MIST_FALLOFF = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}
 NO_LIMIT = 2**40  # samples; without any limit the engine stops at 64
 
 
@@ -54,8 +55,6 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
             f"Pixels of aspect {render.pixel_aspect_x:g} : {render.pixel_aspect_y:g} are not supported; set both under"
             " Output properties > Format > Aspect to 1"
         )
-    if render.film_transparent:
-        notices.add("", "Film > Transparent is not supported; the background is opaque")
     if render.use_multiview:
         notices.add("", "stereoscopy is not supported; every view is the camera's own")
     size = full_size(render)
@@ -65,7 +64,41 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
         crop = border_window(size, edges)
         if crop[2] <= crop[0] or crop[3] <= crop[1]:
             raise GlimmerError("The render border holds no pixel: make it larger, or clear it with Ctrl Alt B")
-    return Film(*size, crop=crop, exposure=film_exposure(scene), **filter_settings(scene.glimmer))
+    return Film(
+        width=size[0],
+        height=size[1],
+        crop=crop,
+        exposure=film_exposure(scene),
+        mist=_mist(scene.world),
+        **filter_settings(scene.glimmer),
+        **transparency(scene),
+    )
+
+
+def transparency(scene: bpy.types.Scene) -> dict[str, Any]:
+    """Film's transparent and transparent_glass. Cycles has the setting of glass, and squares its roughness."""
+    if not scene.render.film_transparent:
+        return {}
+    cycles = getattr(scene, "cycles", None)
+    if cycles is None or not cycles.film_transparent_glass:
+        return {"transparent": True}
+    return {"transparent": True, "transparent_glass": float(cycles.film_transparent_roughness) ** 2}
+
+
+def _mist(world: bpy.types.World | None) -> Mist:
+    if world is None:
+        return Mist()
+    settings = world.mist_settings
+    return Mist(settings.start, settings.depth, MIST_FALLOFF[settings.falloff])
+
+
+def note_missing_passes(view_layer: bpy.types.ViewLayer, notices: Notices) -> None:
+    names = missing(view_layer)
+    if names:
+        notices.add(
+            f"view layer '{view_layer.name}'",
+            f"there is no pass for {', '.join(names)}; {'they are' if len(names) > 1 else 'it is'} left out",
+        )
 
 
 def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:
@@ -83,7 +116,7 @@ def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:
 
 def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_preview: bool = False) -> RenderSettings:
     settings = scene.glimmer
-    names = tuple(item.engine_name for item in passes)
+    names = engine_names(passes)
     if is_preview:
         return RenderSettings(samples=PREVIEW_SAMPLES, seconds=PREVIEW_SECONDS, passes=names)
     seed = settings.seed

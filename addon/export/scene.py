@@ -51,7 +51,7 @@ from .points import point_cloud
 from .sphere import NotASphereError, read_sphere
 from .strands import Strands, curve_strands, particle_strands, tubes
 from .translate.image import Images
-from .translate.surface import named
+from .translate.surface import ACTIVE_UV, named
 from .visibility import note_differences
 from .world import export_world, warn_of_black_sky
 
@@ -171,6 +171,8 @@ class _Source:
         if recording is not None:
             camera = _moving_camera(camera, scene.camera, recording, notices)
         collector = _Collector(self.depsgraph, self.version, notices, self.constants_only, recording)
+        if "uv" in seen.settings.passes:
+            collector.shown_attributes = frozenset([ACTIVE_UV])
         for placed in self.placed():
             collector.add(placed)
         _note_light_groups(self.depsgraph, notices)
@@ -249,6 +251,7 @@ class _Collector:
         self._recording = recording
         self._constants_only = constants_only
         self.reads = True  # what takes time; else the notices alone are wanted
+        self.shown_attributes: frozenset[str] = frozenset()  # of meshes, that passes show
         self.objects: list[Object] = []
         self.spheres: list[Spheres] = []
         self.lights: list[Lamp] = []
@@ -302,7 +305,7 @@ class _Collector:
             return  # and its materials are nobody's
         slots = _slots(item)
         materials = tuple(self._material(material, item.name) for material in slots)
-        mesh = self._mesh(item, len(slots), self._attributes(materials))
+        mesh = self._mesh(item, len(slots), self._attributes(materials) | self.shown_attributes)
         if mesh is not None:
             self._add_object(placed, matrices, mesh, materials)
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..native.render import NativeRender, Progress, Tile
 from ..scene.description import SceneDescription
 from ..scene.problems import GlimmerError
-from .passes import COMBINED, Pixels, RenderPass, hand_over
+from .passes import Reader, hand_over
 
 if TYPE_CHECKING:
     import bpy
@@ -66,7 +66,6 @@ class Display:
         engine: bpy.types.RenderEngine,
         render: NativeRender,
         scene: SceneDescription,
-        passes: tuple[RenderPass, ...],
         layer: str,
         watch: Callable[[dict[str, Any]], None] | None = None,
     ) -> None:
@@ -74,12 +73,13 @@ class Display:
         self._engine = engine
         self._render = render
         self._settings = scene.settings
-        self._passes = passes
         self._layer = layer
         self._watch = watch
         x0, y0, x1, y1 = scene.film.window
         self._whole = Tile(0, 0, x1 - x0, y1 - y0)
+        self._has_alpha = render.has_alpha
         self._material_indices = self._index_table(scene)
+        self._to_camera = scene.camera.to_world[:3, :3].T
 
     def _index_table(self, scene: SceneDescription) -> NDArray[np.float32]:
         """Blender's material index of each of the engine's numbers, which count from 1."""
@@ -130,7 +130,6 @@ class Display:
         return end + max(REFRESH_SECONDS, (end - start) / MAX_REFRESH_SHARE)
 
     def _show(self, tile: Tile, final: bool = False) -> None:
-        combined = self._render.read(COMBINED.engine_name, tile)
         result = self._engine.begin_result(
             tile.x, self._whole.height - tile.y - tile.height, tile.width, tile.height, layer=self._layer
         )
@@ -140,17 +139,13 @@ class Display:
                     f"Blender expects {result.resolution_x} x {result.resolution_y} pixels where the engine rendered"
                     f" {tile.width} x {tile.height}: a defect of the add-on, please report it with the border's numbers"
                 )
-            self._fill(result.layers[0].passes, tile, combined, final)
+            self._fill(result.layers[0].passes, tile, final)
         finally:
             self._engine.end_result(result)
 
-    def _fill(self, layer_passes: Any, tile: Tile, combined: Pixels, final: bool) -> None:
-        flat = hand_over(
-            layer_passes=[item.name for item in layer_passes],
-            channels=[item.channels for item in layer_passes],
-            shape=(tile.height, tile.width),
-            read=(lambda item: self._render.read(item.engine_name, tile)) if final else None,
-            combined=combined,
-            material_indices=self._material_indices,
+    def _fill(self, layer_passes: Any, tile: Tile, final: bool) -> None:
+        reader = Reader(
+            lambda name: self._render.read(name, tile), self._has_alpha, self._material_indices, self._to_camera
         )
-        layer_passes.foreach_set("rect", flat)
+        asked = [(item.name, item.channels) for item in layer_passes]
+        layer_passes.foreach_set("rect", hand_over(asked, (tile.height, tile.width), reader, final))

@@ -75,6 +75,8 @@ class NativeRender:
         desc.passes = 0
         for name in settings.passes:
             desc.passes |= 1 << self._pass(name)[0]
+        if self.has_alpha:
+            desc.passes |= 1 << self._pass("alpha")[0]
         return desc
 
     def _pass(self, name: str) -> tuple[int, str]:
@@ -102,6 +104,11 @@ class NativeRender:
     def material_numbers(self) -> list[int]:
         """The engine's number of each material of the description."""
         return self._scene.material_numbers
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether the picture may be empty in places: the pass "alpha" is there then."""
+        return self._scene.description.has_alpha
 
     def start(self) -> None:
         self._library.call("glimmer_render_start", self._handle)

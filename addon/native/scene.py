@@ -131,6 +131,10 @@ class NativeScene:
         desc.filter = Filter[film.filter.upper()]
         desc.filter_width = film.filter_width
         desc.exposure = film.exposure
+        desc.transparent = film.transparent
+        if film.transparent_glass is not None:
+            desc.transparent_glass = film.transparent_glass
+        desc.mist_start, desc.mist_depth, desc.mist_falloff = film.mist.start, film.mist.depth, film.mist.falloff
         self.library.call("glimmer_scene_set_film", self.handle, byref(desc))
 
     def _set_camera(self, camera: d.Camera) -> None:

@@ -274,6 +274,11 @@ class FilmDesc(ctypes.Structure):
         ("filter", c_int),
         ("filter_width", c_float),
         ("exposure", c_float),
+        ("transparent", c_int),
+        ("transparent_glass", c_float),
+        ("mist_start", c_float),
+        ("mist_depth", c_float),
+        ("mist_falloff", c_float),
     ]
 
 

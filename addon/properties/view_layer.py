@@ -19,8 +19,8 @@ class GlimmerViewLayerSettings(bpy.types.PropertyGroup):
 
     __annotations__ = {
         item.switch: bpy.props.BoolProperty(
-            name=item.blender_name, description=item.help, default=False, update=_on_change
+            name=item.short_name, description=item.help, default=False, update=_on_change
         )
         for item in OPTIONAL
-        if not item.builtin
+        if item.is_ours
     }

@@ -48,6 +48,15 @@ WHITE: Rgb = (1.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True)
+class Mist:
+    """Of the mist pass: 0 at `start` from the camera, 1 `depth` behind that."""
+
+    start: float = 5.0
+    depth: float = 25.0
+    falloff: float = 2.0  # the exponent
+
+
+@dataclass(frozen=True)
 class Film:
     width: int
     height: int
@@ -55,6 +64,9 @@ class Film:
     filter: str = "box"  # or "blackman_harris"
     filter_width: float = 1.5  # full, in pixels
     exposure: float = 1.0  # factor of all light
+    transparent: bool = False  # the environment is not seen: alpha is 0 there
+    transparent_glass: float | None = None  # GGX width of the glass through which that holds; None: of none
+    mist: Mist = Mist()
 
     @property
     def window(self) -> tuple[int, int, int, int]:
@@ -433,6 +445,12 @@ class SceneDescription:
     environment: Environment = field(default_factory=Environment)
     medium: Medium | None = None
     settings: RenderSettings = field(default_factory=RenderSettings)
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether the picture may be empty in places."""
+        holes = any(item.is_holdout for item in self.objects) or any(item.is_holdout for item in self.spheres)
+        return self.film.transparent or holes
 
     def meshes(self) -> Iterator[Mesh]:
         """Each mesh of equal content once."""

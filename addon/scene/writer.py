@@ -244,6 +244,12 @@ def _film(film: d.Film) -> Json:
         result["crop"] = list(film.crop)
     if film.exposure != 1.0:
         result["exposure"] = film.exposure
+    if film.transparent:
+        result["transparent"] = True
+    if film.transparent_glass is not None:
+        result["transparent_glass"] = film.transparent_glass
+    if film.mist != d.Mist():
+        result["mist"] = {"start": film.mist.start, "depth": film.mist.depth, "falloff": film.mist.falloff}
     return result
 
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..film.passes import OPTIONAL
+from ..film.passes import LONG_NAMES, OPTIONAL
 from .panel import GlimmerPanel
 
 
@@ -14,9 +14,14 @@ class GLIMMER_PT_passes(GlimmerPanel, bpy.types.Panel):
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         column = self.layout.column(heading="Include")
+        drawn = set()
         for item in OPTIONAL:
-            owner = context.view_layer if item.builtin else context.view_layer.glimmer
-            column.prop(owner, item.switch, text=item.blender_name)
+            owner = item.owner(context.view_layer)
+            if owner is None or item.switch in drawn:
+                continue  # Cycles is switched off, or one switch is of several passes
+            drawn.add(item.switch)
+            text = "Denoising Data" if item.switch == "denoising_store_passes" else item.name(LONG_NAMES)
+            column.prop(owner, item.switch, text=text)
 
 
 def register() -> None:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..film.passes import ALPHA, with_alpha
 from ..native.library import load
 from ..native.open_set import OpenSet
 from ..native.render import NativeRender, Progress, Tile, open_render
@@ -42,7 +43,7 @@ Window = tuple[int, int, int, int]  # x0, y0, x1, y1 from the top left
 class Frame:
     """The newest picture, linear."""
 
-    rgba: Pixels  # (height, width, 4), opaque, bottom row first: as textures begin
+    rgba: Pixels  # (height, width, 4), premultiplied, bottom row first: as textures begin
     window: Window  # of the film, that the pixels are of
     film_size: tuple[int, int]  # width and height of the film, in its pixels
     scene: int  # the number that `show` returned for what it shows
@@ -88,6 +89,11 @@ class _Running:
         x0, y0, x1, y1 = self.window
         return Tile(0, 0, x1 - x0, y1 - y0)
 
+    def pixels(self, tile: Tile) -> Pixels:
+        """With alpha, premultiplied, where the picture may be empty."""
+        colors = self.render.read("combined", tile)
+        return with_alpha(colors, self.render.read(ALPHA, tile)) if self.scene.has_alpha else colors
+
 
 @dataclass(eq=False)
 class _Failure:
@@ -115,9 +121,9 @@ def enlarged(frame: Frame, scale: int, window: Window) -> Pixels:
 
 
 def paste(canvas: Pixels, tile: Tile, pixels: Pixels) -> None:
-    """canvas: (height, width, 4), bottom row first. pixels: (tile.height, tile.width, 3), top row first."""
+    """canvas: (height, width, 4), bottom row first. pixels: (tile.height, tile.width, 3 or 4), top row first."""
     bottom = canvas.shape[0] - tile.y - tile.height
-    canvas[bottom : bottom + tile.height, tile.x : tile.x + tile.width, :3] = pixels[::-1]
+    canvas[bottom : bottom + tile.height, tile.x : tile.x + tile.width, : pixels.shape[2]] = pixels[::-1]
 
 
 class Session:
@@ -277,12 +283,12 @@ class Session:
         if progress.samples > 0:
             running.canvas = None
             rgba: Pixels = np.ones((running.whole.height, running.whole.width, 4), np.float32)
-            paste(rgba, running.whole, running.render.read("combined", running.whole))
+            paste(rgba, running.whole, running.pixels(running.whole))
         elif running.canvas is None or not (tiles := running.render.changed_tiles()):
             return
         else:
             for tile in tiles:
-                paste(running.canvas, tile, running.render.read("combined", tile))
+                paste(running.canvas, tile, running.pixels(tile))
             rgba = running.canvas.copy()
         running.shown = version
         self._publish(running, rgba, progress)

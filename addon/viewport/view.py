@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..export.camera import export_view
-from ..export.film import export_view_settings, film_exposure, filter_settings
+from ..export.film import export_view_settings, film_exposure, filter_settings, transparency
 from ..export.instance import BulkReader
 from ..export.scene import View, export_scene
 from ..film.display import status
@@ -138,7 +138,14 @@ class RenderedView:
         evaluated = None if camera is None else camera.evaluated_get(depsgraph)
         crop = border_crop(_border(context, scene, evaluated), size)
         return View(
-            Film(*size, crop=crop, exposure=film_exposure(scene), **filter_settings(scene.glimmer)),
+            Film(
+                width=size[0],
+                height=size[1],
+                crop=crop,
+                exposure=film_exposure(scene),
+                **filter_settings(scene.glimmer),
+                **transparency(scene),
+            ),
             export_view(space, context.region_data, evaluated, notices),
             export_view_settings(scene),
         )
@@ -221,6 +228,7 @@ def _view_state(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, scen
         scene.glimmer.filter,
         scene.glimmer.filter_width,
         film_exposure(scene),
+        tuple(transparency(scene).values()),
         context.region.width,
         context.region.height,
         region_view.view_perspective,

@@ -399,6 +399,13 @@ typedef struct glimmer_film_desc {
     glimmer_filter filter;
     float filter_width; /* full, in pixels; box is exactly one pixel */
     float exposure;     /* factor of all light in the picture, >= 0; default 1 */
+    int transparent; /* not 0: where the camera sees the environment, the picture is empty: alpha 0, and R G B are what
+                        stands before it (premultiplied). Renders then have the alpha pass, asked for or not */
+    float transparent_glass; /* of a transparent film: glass up to this GGX width, 0 to 1, is empty where the
+                                environment is seen through it; below 0 (the default): none is */
+    /* The mist pass: from 0 at `mist_start` from the camera to 1 `mist_depth` behind that, by the exponent
+     * `mist_falloff`. Defaults 5, 25, 2. */
+    float mist_start, mist_depth, mist_falloff;
 } glimmer_film_desc;
 
 GLIMMER_API void glimmer_film_init(glimmer_film_desc *desc);
@@ -444,7 +451,28 @@ typedef enum glimmer_pass {
     GLIMMER_PASS_OBJECT_INDEX = 9,    /* X, of the first sample's first surface; 0 if none */
     GLIMMER_PASS_MATERIAL_INDEX = 10, /* X, 1 + material, 0 if none */
     GLIMMER_PASS_SAMPLE_COUNT = 11,   /* X */
-    GLIMMER_PASS_COUNT = 12
+    GLIMMER_PASS_ALPHA = 12, /* A: 1 less the part of the camera's rays that end at a transparent film's environment or
+                                in a holdout; 1 elsewhere */
+    GLIMMER_PASS_POSITION = 13,    /* XYZ of the first sample's first surface, in the scene's coordinates; 0 if none */
+    GLIMMER_PASS_UV = 14,          /* UVA: texture coordinates of the first surface, and 1; 0 if none */
+    GLIMMER_PASS_MIST = 15,        /* Z: see glimmer_film_desc; 1 where there is no surface */
+    GLIMMER_PASS_EMIT = 16,        /* RGB: what surfaces, lamps and media send to the camera by themselves */
+    GLIMMER_PASS_ENVIRONMENT = 17, /* RGB: the same of the environment, also where the film is transparent */
+    /* RGB: all other light by what scattered it last before the camera, mirrors and glass among them: `direct` what
+     * came there straight from lights, `indirect` the rest. With emit and environment they add up to the combined
+     * picture. `color`: the albedo there, of what is seen directly or through transparent surfaces. */
+    GLIMMER_PASS_DIFFUSE_DIRECT = 18,
+    GLIMMER_PASS_DIFFUSE_INDIRECT = 19,
+    GLIMMER_PASS_DIFFUSE_COLOR = 20,
+    GLIMMER_PASS_GLOSSY_DIRECT = 21, /* reflected, but not diffusely */
+    GLIMMER_PASS_GLOSSY_INDIRECT = 22,
+    GLIMMER_PASS_GLOSSY_COLOR = 23,
+    GLIMMER_PASS_TRANSMISSION_DIRECT = 24, /* to the other side of the surface */
+    GLIMMER_PASS_TRANSMISSION_INDIRECT = 25,
+    GLIMMER_PASS_TRANSMISSION_COLOR = 26,
+    GLIMMER_PASS_VOLUME_DIRECT = 27,
+    GLIMMER_PASS_VOLUME_INDIRECT = 28,
+    GLIMMER_PASS_COUNT = 29
 } glimmer_pass;
 
 /* How the samples of a pixel become its value of a pass, and how pictures of several seeds are merged. */
@@ -459,7 +487,7 @@ typedef enum glimmer_pass_rule {
 
 typedef struct glimmer_pass_info_t {
     const char *name;     /* "combined", "stderr", "albedo", ... as in --aov */
-    const char *channels; /* "RGB", "XYZ", "Z" or "X" */
+    const char *channels; /* "RGB", "XYZ", "UVA", "Z", "X" or "A" */
     const char *help;     /* one line */
     glimmer_pass_rule rule;
 } glimmer_pass_info_t;

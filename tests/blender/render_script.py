@@ -85,7 +85,7 @@ def layers_and_passes() -> None:
     inside.use_format("OPEN_EXR_MULTILAYER")
     first = bpy.context.view_layer
     for item in passes.OPTIONAL:
-        setattr(first if item.builtin else first.glimmer, item.switch, True)
+        setattr(item.owner(first), item.switch, True)
     without = scene.view_layers.new("Without Ball")
     hidden = bpy.data.collections.new("Hidden")
     scene.collection.children.link(hidden)
@@ -97,7 +97,26 @@ def layers_and_passes() -> None:
     compositor(scene)
     scene.view_layers.remove(without)
     for item in passes.OPTIONAL:
-        setattr(first if item.builtin else first.glimmer, item.switch, False)
+        setattr(item.owner(first), item.switch, False)
+
+
+def transparent() -> None:
+    """A ball before the sky and a holdout, beside Cycles."""
+    scene = new_scene()
+    bpy.data.objects.remove(bpy.data.objects["Floor"])
+    inside.ball("Hole", location=(-1.5, -1.0, 1.0), segments=32).is_holdout = True
+    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.pixel_filter_type = 8, False, "BOX"
+    scene.glimmer.filter = "BOX"
+    inside.use_format("OPEN_EXR")
+    scene.render.image_settings.color_mode = "RGBA"
+    for name, is_transparent in (("clear", True), ("opaque", False)):
+        scene.render.film_transparent = is_transparent
+        for engine in ("GLIMMER", "CYCLES"):
+            scene.render.engine = engine
+            inside.render(OUT / f"{name}_{engine.lower()}.exr")
+    scene.render.image_settings.color_mode = "RGB"
+    scene.render.film_transparent = False
+    scene.glimmer.property_unset("filter")
 
 
 def compositor(scene: Any) -> None:
@@ -112,6 +131,7 @@ def compositor(scene: Any) -> None:
         tree.nodes.clear()
         output = tree.nodes.new("CompositorNodeComposite")
     layers = tree.nodes.new("CompositorNodeRLayers")
+    facts["names"] = [item.name(bpy.app.version) for item in passes.OPTIONAL]
     facts["sockets"] = [socket.name for socket in layers.outputs if socket.enabled]
     tree.links.new(layers.outputs["Albedo"], output.inputs[0])
     inside.use_format("OPEN_EXR")
@@ -202,6 +222,7 @@ differences()
 settings()
 scene_file()
 layers_and_passes()
+transparent()
 animation()
 hexagon_field()
 (OUT / "facts.json").write_text(json.dumps(facts))

@@ -92,14 +92,20 @@ def test_export_leaves_the_scene_as_it_was(facts: dict[str, Any]) -> None:
     assert facts["engine_after_export"] == "GLIMMER"
 
 
-def test_every_pass_is_in_the_multilayer_file(out: Path) -> None:
+def test_every_pass_is_in_the_multilayer_file(out: Path, facts: dict[str, Any]) -> None:
     found = channels(out / "layers.exr")
-    for item in (COMBINED, *OPTIONAL):
+    for name, item in zip(["Combined", *facts["names"]], (COMBINED, *OPTIONAL), strict=True):
         for part in item.channels:
-            assert f"ViewLayer.{item.blender_name}.{part}" in found
+            assert f"ViewLayer.{name}.{part}" in found
 
 
-def test_passes_hold_what_they_say(out: Path) -> None:
+def named_pass(found: dict[str, Pixels], facts: dict[str, Any], name: str) -> Pixels:
+    """A pass of the view layer by the engine's name."""
+    item = next(item for item in OPTIONAL if item.engine_name == name)
+    return layer_pass(found, "ViewLayer", facts["names"][OPTIONAL.index(item)], item.channels)
+
+
+def test_passes_hold_what_they_say(out: Path, facts: dict[str, Any]) -> None:
     found = channels(out / "layers.exr")
     alone = picture(out / "full.exr")
     combined = layer_pass(found, "ViewLayer", "Combined", "RGBA")
@@ -107,7 +113,7 @@ def test_passes_hold_what_they_say(out: Path) -> None:
     assert (combined[..., 3] == 1.0).all()
     samples = layer_pass(found, "ViewLayer", "Sample Count", "X")
     assert (samples == 8.0).all()
-    objects, materials = (layer_pass(found, "ViewLayer", name, "X")[..., 0] for name in ("IndexOB", "IndexMA"))
+    objects, materials = (named_pass(found, facts, name)[..., 0] for name in ("object_index", "material_index"))
     assert set(np.unique(objects)) == {0.0, 5.0}
     assert set(np.unique(materials)) == {0.0, 9.0}
     np.testing.assert_array_equal(objects == 5.0, materials == 9.0)
@@ -116,11 +122,37 @@ def test_passes_hold_what_they_say(out: Path) -> None:
     floor = np.abs(normal - [0.0, 0.0, 1.0]).max(axis=2) < 1e-5
     assert floor.mean() > 0.3
     assert 2.0 < depth[floor].min() < depth[floor].max() < 100.0
-    # The parts of the light make up the picture.
-    parts = sum(layer_pass(found, "ViewLayer", name, "RGB") for name in ("Emit", "Direct", "Indirect", "Fog"))
+    # The parts of the light make up the picture, in both ways of cutting it.
+    parts = sum(named_pass(found, facts, name) for name in ("emission", "direct", "indirect", "fog"))
     np.testing.assert_allclose(parts, combined[..., :3], rtol=2e-5, atol=1e-6)
+    parts = sum(named_pass(found, facts, name) for name in ("emit", "environment", "volume_direct", "volume_indirect"))
+    for lobe in ("diffuse", "glossy", "transmission"):
+        direct, indirect, color = (
+            named_pass(found, facts, f"{lobe}_{part}") for part in ("direct", "indirect", "color")
+        )
+        parts = parts + (direct + indirect) * color
+    np.testing.assert_allclose(parts, combined[..., :3], rtol=2e-5, atol=1e-6)
+    position = named_pass(found, facts, "position")
+    np.testing.assert_allclose(position[floor][:, 2], 0.0, atol=1e-4)
+    np.testing.assert_array_equal(layer_pass(found, "ViewLayer", "Noisy Image", "RGBA"), combined)
     error = layer_pass(found, "ViewLayer", "Standard Error", "RGB")
     assert np.isfinite(error).all() and error.min() >= 0.0 and error.max() > 0.0
+
+
+@pytest.mark.parametrize("name", ["clear", "opaque"])
+def test_alpha_is_that_of_cycles(out: Path, name: str) -> None:
+    ours, cycles = (
+        np.stack([channels(out / f"{name}_{engine}.exr")[part] for part in "RGBA"], axis=2)
+        for engine in ("glimmer", "cycles")
+    )
+    edges = 0.1  # of balls whose outlines both sample eight times
+    off = np.abs(ours[..., 3] - cycles[..., 3])
+    assert off.mean() < 0.01 and (off > 0.01).mean() < edges
+    assert (ours[..., 3] == 0.0).any() and (ours[..., 3] == 1.0).any()
+    empty = ours[..., 3] == 0.0
+    # The hole is empty on any film, the sky on a transparent one.
+    assert 0.1 < empty.mean() < 0.3 if name == "opaque" else empty.mean() > 0.5
+    np.testing.assert_allclose(ours[..., :3].mean(), cycles[..., :3].mean(), rtol=0.05)
 
 
 def test_a_view_layer_shows_its_own_collections(out: Path) -> None:
@@ -131,7 +163,7 @@ def test_a_view_layer_shows_its_own_collections(out: Path) -> None:
 
 
 def test_passes_reach_the_compositor(out: Path, facts: dict[str, Any]) -> None:
-    assert {item.blender_name for item in OPTIONAL} <= set(facts["sockets"])
+    assert set(facts["names"]) <= set(facts["sockets"])
     albedo = layer_pass(channels(out / "layers.exr"), "ViewLayer", "Albedo", "RGB")
     np.testing.assert_array_equal(picture(out / "composited.exr"), albedo)
 

@@ -10,9 +10,15 @@ from addon.native.structs import State
 from tests.engine.library import Image, Render, Scene, pass_table
 
 
-def pictures(render: Render) -> dict[str, Image]:
-    """Of all passes."""
-    return {name: render.read(name) for name in pass_table()}
+def plain_passes() -> tuple[str, ...]:
+    """Those that need no kernel of their own: the table's up to the first that does."""
+    names = tuple(pass_table())
+    return names[: names.index("alpha")]
+
+
+def pictures(render: Render, names: tuple[str, ...] = ()) -> dict[str, Image]:
+    """Of all passes, or of some."""
+    return {name: render.read(name) for name in names or pass_table()}
 
 
 def assert_same_bits(a: dict[str, Image], b: dict[str, Image]) -> None:

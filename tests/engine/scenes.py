@@ -85,6 +85,9 @@ def every_key(folder: Path) -> Scene:
             "filter": {"type": "blackman_harris", "width": 1.5},
             "crop": [2, 1, 14, 11],
             "exposure": 1.25,
+            "transparent": False,
+            "transparent_glass": 0.01,
+            "mist": {"start": 3, "depth": 20, "falloff": 1},
         },
         "camera": {
             "origin": [0, -8, 2],
@@ -262,8 +265,10 @@ class Exr:
 
 
 def read_pixels(path: Path, kind: str = "float") -> tuple[OpenImageIO.ImageSpec, NDArray[Any]]:
-    """Any picture: its specification and (height, width, channels) float32, or as "uint8"."""
-    file = OpenImageIO.ImageInput.open(str(path))
+    """Any picture, as it is stored: its specification and (height, width, channels) float32, or as "uint8"."""
+    config = OpenImageIO.ImageSpec()
+    config.attribute("oiio:UnassociatedAlpha", 1)
+    file = OpenImageIO.ImageInput.open(str(path), config)
     assert file is not None, f"{path}: {OpenImageIO.geterror()}"
     spec = file.spec()
     pixels = file.read_image(kind)

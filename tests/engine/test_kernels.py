@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from addon.scene import description as d
-from tests.engine.bits import assert_same_bits, pictures
-from tests.engine.library import Render, Scene, pass_table
+from tests.engine.bits import assert_same_bits, pictures, plain_passes
+from tests.engine.library import Render, Scene
 from tests.engine.worlds import everything
 from tests.render.build import Builder, camera, floor, grey, hexagon, octahedron
 
@@ -147,8 +147,8 @@ def test_selected_and_full_kernel_give_the_same_bits(case: Case) -> None:
     world = Scene(case.scene)
     results = []
     for full in (0, 1):
-        with Render(world, samples=8, seed=3, passes=tuple(pass_table()), full_kernel=full, **case.settings) as render:
-            results.append((pictures(render.run()), render.report(), render.poll().rays))
+        with Render(world, samples=8, seed=3, passes=plain_passes(), full_kernel=full, **case.settings) as render:
+            results.append((pictures(render.run(), plain_passes()), render.report(), render.poll().rays))
     (selected, said, rays), (full_pictures, full_said, full_rays) = results
     assert_same_bits(selected, full_pictures)
     assert rays == full_rays

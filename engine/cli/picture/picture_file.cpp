@@ -27,7 +27,27 @@ ImageHeader rgb_header(const Picture &picture, const char *format, const char *c
     return {format, 0, 0, width, height, 1, width, height, {"R", "G", "B"}, color_space, {}};
 }
 
+/// Colours as they are without their alpha, which follows them: what a .png holds.
+std::vector<float> rgba_of(const Picture &picture, size_t alpha) {
+    const size_t channels = picture.channels.size();
+    std::vector<float> rgba(4 * picture.pixel_count());
+    for (size_t i = 0; i < picture.pixel_count(); ++i) {
+        const float *in = picture.pixels.data() + i * channels;
+        const float a = std::clamp(in[alpha], 0.0f, 1.0f);
+        for (size_t c = 0; c < 3; ++c)
+            rgba[4 * i + c] = float(display_value(a > 0 ? in[c] / a : 0)) / 255;
+        rgba[4 * i + 3] = a;
+    }
+    return rgba;
+}
+
 void write_png(const Picture &picture, const std::filesystem::path &path) {
+    if (const auto alpha = std::ranges::find(picture.channels, "A"); alpha != picture.channels.end()) {
+        ImageHeader header = rgb_header(picture, "png", "sRGB");
+        header.channels.emplace_back("A");
+        header.attributes["oiio:UnassociatedAlpha"] = 1; // else OpenImageIO divides by it
+        return write_image(header, rgba_of(picture, size_t(alpha - picture.channels.begin())), PixelType::UInt8, path);
+    }
     auto rgb = rgb_of(picture);
     std::transform(rgb.begin(), rgb.end(), rgb.begin(), [](float value) { return float(display_value(value)) / 255; });
     write_image(rgb_header(picture, "png", "sRGB"), rgb, PixelType::UInt8, path);

@@ -8,8 +8,9 @@ namespace glimmer {
 std::vector<std::string> channel_names(glimmer_pass pass) {
     const glimmer_pass_info_t *info = glimmer_pass_info(pass);
     std::vector<std::string> names;
+    const bool is_main = pass == GLIMMER_PASS_COMBINED || pass == GLIMMER_PASS_ALPHA;
     for (const char *channel = info->channels; *channel != '\0'; ++channel)
-        names.push_back((pass == GLIMMER_PASS_COMBINED ? "" : std::string(info->name) + ".") + *channel);
+        names.push_back((is_main ? "" : std::string(info->name) + ".") + *channel);
     return names;
 }
 
@@ -21,6 +22,7 @@ Picture read_render(glimmer_render *render, const Film &film, uint32_t passes, b
 
     passes |= 1u << GLIMMER_PASS_COMBINED;
     passes &= ~(1u << GLIMMER_PASS_STDERR);
+    passes |= film.transparent ? 1u << GLIMMER_PASS_ALPHA : 0;
     passes |= has_standard_error ? 1u << GLIMMER_PASS_STDERR : 0;
     std::vector<std::vector<float>> planes; // one for each pass, interleaved
     std::vector<size_t> widths;

@@ -25,10 +25,27 @@ void read_filter(const Value &filter, glimmer_film_desc &desc) {
         desc.filter_width = filter.at("width").single(kPositive);
 }
 
+void read_transparency(const Value &film, glimmer_film_desc &desc) {
+    if (const auto transparent = film.find("transparent"))
+        desc.transparent = transparent->boolean();
+    if (const auto width = film.find("transparent_glass"))
+        desc.transparent_glass = width->single(kUnit);
+}
+
+void read_mist(const Value &mist, glimmer_film_desc &desc) {
+    mist.expect_object({"start", "depth", "falloff"});
+    if (const auto start = mist.find("start"))
+        desc.mist_start = start->single(kNonNegative);
+    if (const auto depth = mist.find("depth"))
+        desc.mist_depth = depth->single(kNonNegative);
+    if (const auto falloff = mist.find("falloff"))
+        desc.mist_falloff = falloff->single(kNonNegative);
+}
+
 } // namespace
 
 Film read_film(const Value &value, glimmer_scene *scene) {
-    value.expect_object({"width", "height", "filter", "crop", "exposure"});
+    value.expect_object({"width", "height", "filter", "crop", "exposure", "transparent", "transparent_glass", "mist"});
     glimmer_film_desc desc;
     glimmer_film_init(&desc);
     Film film;
@@ -39,6 +56,10 @@ Film read_film(const Value &value, glimmer_scene *scene) {
         read_filter(*filter, desc);
     if (const auto exposure = value.find("exposure"))
         desc.exposure = exposure->single(kNonNegative);
+    read_transparency(value, desc);
+    film.transparent = desc.transparent != 0;
+    if (const auto mist = value.find("mist"))
+        read_mist(*mist, desc);
     if (const auto crop = value.find("crop")) {
         crop->expect_size(4);
         size_t i = 0;

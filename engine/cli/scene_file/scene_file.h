@@ -15,6 +15,7 @@ namespace glimmer {
 struct Film {
     uint32_t width = 0, height = 0;
     std::array<uint32_t, 4> crop{}; ///< x0, y0, x1, y1 of what is rendered; the whole picture without a crop
+    bool transparent = false;       ///< the environment is not seen, and pictures have alpha
 
     uint32_t crop_width() const { return crop[2] - crop[0]; }
     uint32_t crop_height() const { return crop[3] - crop[1]; }

@@ -65,6 +65,8 @@ glimmer_result glimmer_render_create(glimmer_scene *scene, const glimmer_render_
         settings.threads = d.threads;
         settings.tile_size = d.tile_size ? (d.tile_size + kBlockSize - 1) / kBlockSize * kBlockSize : 64;
         settings.passes = d.passes | 1u << GLIMMER_PASS_COMBINED;
+        if (s.scene->film.transparent)
+            settings.passes |= 1u << GLIMMER_PASS_ALPHA;
         settings.limits = {depth_limit(d.max_depth, "max_depth"), depth_limit(d.max_scatter, "max_scatter")};
         settings.adaptive = d.adaptive != 0;
         settings.full_kernel = d.full_kernel != 0;

@@ -395,6 +395,8 @@ void glimmer_film_init(glimmer_film_desc *desc) {
     desc->filter = GLIMMER_BOX;
     desc->filter_width = 1;
     desc->exposure = 1;
+    desc->transparent_glass = -1;
+    desc->mist_start = 5, desc->mist_depth = 25, desc->mist_falloff = 2;
 }
 
 glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_desc *desc) {
@@ -417,6 +419,12 @@ glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_d
             fail_argument("film: filter_width is " + text(double(d.filter_width)) +
                           "; allowed: above 0, up to 64 pixels");
         check_least(double(d.exposure), 0, "film: exposure");
+        if (!(d.transparent_glass <= 1))
+            fail_argument("film: transparent_glass is " + text(double(d.transparent_glass)) +
+                          "; allowed: 0 to 1, or below 0 for none");
+        check_least(double(d.mist_start), 0, "film: mist_start");
+        check_least(double(d.mist_depth), 0, "film: mist_depth");
+        check_least(double(d.mist_falloff), 0, "film: mist_falloff");
         s.film = d;
     });
 }

@@ -22,16 +22,27 @@ namespace detail {
 
 inline constexpr size_t kMaxPassChannels = 3;
 
-template <auto Member>
-void pass_value(const FilmSample &sample, float *channels) {
-    const auto &v = sample.*Member;
-    using Value = std::remove_cvref_t<decltype(v)>;
+template <class Value>
+void put(const Value &v, float *channels) {
     if constexpr (std::is_same_v<Value, Rgb>)
         channels[0] = v.r, channels[1] = v.g, channels[2] = v.b;
     else if constexpr (std::is_same_v<Value, Vec3f>)
         channels[0] = v.x, channels[1] = v.y, channels[2] = v.z;
     else
         channels[0] = float(v);
+}
+template <auto Member>
+void pass_value(const FilmSample &sample, float *channels) {
+    put(sample.*Member, channels);
+}
+template <auto Member>
+void more_value(const FilmSample &sample, float *channels) {
+    put(sample.more->*Member, channels);
+}
+/// Sums are of what surfaces take up; the pass shows what is left.
+template <auto Member>
+void rest_value(const FilmSample &sample, float *channels) {
+    channels[0] = 1 - sample.more->*Member;
 }
 
 } // namespace detail
@@ -61,7 +72,45 @@ inline constexpr std::array<Pass, GLIMMER_PASS_COUNT> kPasses{{
     {{"material_index", "X", "1 + the material at the pixel's first sample, 0 if none", GLIMMER_RULE_FIRST},
      detail::pass_value<&FilmSample::material_index>},
     {{"sample_count", "X", "samples of the pixel", GLIMMER_RULE_COUNT}},
+    {{"alpha", "A", "part of the pixel that is not empty: environment of a transparent film, holdouts",
+      GLIMMER_RULE_MEAN},
+     detail::rest_value<&PassSample::transparency>},
+    {{"position", "XYZ", "position of the first surface at the pixel's first sample, 0 if none", GLIMMER_RULE_FIRST},
+     detail::more_value<&PassSample::position>},
+    {{"uv", "UVA", "texture coordinates of the first surface, and 1 where there is one", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::uv>},
+    {{"mist", "Z", "0 near the camera to 1 far from it, as the film's mist says", GLIMMER_RULE_MEAN},
+     detail::rest_value<&PassSample::clearness>},
+    {{"emit", "RGB", "light of surfaces, lamps and media seen directly", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::emit>},
+    {{"environment", "RGB", "environment seen directly, also where the film is transparent", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::environment>},
+    {{"diffuse_direct", "RGB", "light from lights that a surface reflects diffusely", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::diffuse_direct>},
+    {{"diffuse_indirect", "RGB", "other light that a surface reflects diffusely", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::diffuse_indirect>},
+    {{"diffuse_color", "RGB", "albedo of what reflects diffusely", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::diffuse_color>},
+    {{"glossy_direct", "RGB", "light from lights that a surface reflects otherwise", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::glossy_direct>},
+    {{"glossy_indirect", "RGB", "other light that a surface reflects otherwise", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::glossy_indirect>},
+    {{"glossy_color", "RGB", "albedo of what reflects otherwise", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::glossy_color>},
+    {{"transmission_direct", "RGB", "light from lights that a surface sends to its other side", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::transmission_direct>},
+    {{"transmission_indirect", "RGB", "other light that a surface sends to its other side", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::transmission_indirect>},
+    {{"transmission_color", "RGB", "albedo of what sends light to the other side", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::transmission_color>},
+    {{"volume_direct", "RGB", "light from lights that a medium scatters to the camera", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::volume_direct>},
+    {{"volume_indirect", "RGB", "other light that a medium scatters to the camera", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::volume_indirect>},
 }};
+
+/// The passes that are made from a PassSample.
+inline constexpr uint32_t kPassesOfMore = ~0u << GLIMMER_PASS_ALPHA & ((1u << GLIMMER_PASS_COUNT) - 1);
 
 inline size_t pass_channels(glimmer_pass pass) {
     return std::strlen(kPasses[size_t(pass)].info.channels);

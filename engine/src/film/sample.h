@@ -8,6 +8,25 @@
 
 namespace glimmer {
 
+/// What only some passes show. A renderer that has been asked for none of them carries none of this.
+struct PassSample {
+    Rgb emit, environment;
+    /// Light by the last thing that scattered it before the camera, mirrors and glass among them.
+    Rgb diffuse_direct, diffuse_indirect, glossy_direct, glossy_indirect;
+    Rgb transmission_direct, transmission_indirect, volume_direct, volume_indirect;
+    Rgb diffuse_color, glossy_color, transmission_color; ///< albedos of what the camera sees
+    Vec3f position;                                      ///< in the scene's own coordinates
+    Vec3f uv;                                            ///< u, v, 1
+    float clearness = 0;    ///< 1 less the mist, of the part of the sample that surfaces take up
+    float transparency = 0; ///< part of the sample where the picture is empty
+
+    void expose(float factor) {
+        for (Rgb *part : {&emit, &environment, &diffuse_direct, &diffuse_indirect, &glossy_direct, &glossy_indirect,
+                          &transmission_direct, &transmission_indirect, &volume_direct, &volume_indirect})
+            *part *= factor;
+    }
+};
+
 struct FilmSample {
     /// Radiance by the way it came to the camera (see film/passes.h); their sum is the radiance of the sample.
     Rgb emission, direct, indirect, medium;
@@ -18,11 +37,14 @@ struct FilmSample {
     /// A guard against endless paths broke the sample off: what is missing is a bias.
     bool unfinished = false;
     uint32_t object_index = 0, material_index = 0;
+    PassSample *more = nullptr; ///< not null where a pass of the film shows some of it
 
     /// Makes all light a factor brighter.
     void expose(float factor) {
         for (Rgb *part : {&emission, &direct, &indirect, &medium})
             *part *= factor;
+        if (more)
+            more->expose(factor);
     }
     Rgb radiance() const { return emission + direct + indirect + medium; }
 };

@@ -48,8 +48,8 @@ std::string renamed_integrator(std::string_view name) {
 }
 
 std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
-                                                  bool full_kernel) {
-    return make_path_integrator(scene, limits, flags_of(index), full_kernel);
+                                                  uint32_t passes, bool full_kernel) {
+    return make_path_integrator(scene, limits, flags_of(index), passes, full_kernel);
 }
 
 } // namespace glimmer

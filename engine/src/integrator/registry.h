@@ -43,9 +43,9 @@ std::optional<uint32_t> find_integrator(std::string_view name);
 /// "integrator "report" is now called "baseline"" for a former name; empty for a present one.
 std::string renamed_integrator(std::string_view name);
 
-/// index: into kIntegrators. full_kernel: the code for all scenes, not what was compiled for scenes like this one; both
-/// give the same bits.
+/// index: into kIntegrators. passes: bit set of 1 << glimmer_pass, what the film keeps. full_kernel: the code for all
+/// scenes, not what was compiled for scenes like this one; both give the same bits.
 std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
-                                                  bool full_kernel);
+                                                  uint32_t passes, bool full_kernel);
 
 } // namespace glimmer

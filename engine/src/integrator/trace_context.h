@@ -2,6 +2,8 @@
 // What a worker takes along wherever it traces rays.
 #pragma once
 
+#include "film/sample.h"
+
 #include <atomic>
 #include <cstdint>
 
@@ -11,6 +13,7 @@ namespace glimmer {
 struct TraceContext {
     uint64_t rays = 0;
     const std::atomic<bool> *stop = nullptr; ///< set from outside to cancel; null: never cancelled
+    PassSample *passes = nullptr;            ///< where a camera sample puts what passes show; null: nowhere
     bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
 };
 

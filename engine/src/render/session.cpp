@@ -32,7 +32,8 @@ bool is_power_of_two(uint64_t n) {
 
 Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings &settings)
     : scene_(std::move(scene)), settings_(completed(settings)),
-      integrator_(make_integrator(settings.integrator, *scene_, settings.limits, settings.full_kernel)),
+      integrator_(
+          make_integrator(settings.integrator, *scene_, settings.limits, settings.passes, settings.full_kernel)),
       film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes, settings.adaptive),
       schedule_(film_.tiles().size(), integrator_->shares(), settings_.samples),
       tile_renderer_(*scene_, *integrator_, schedule_, settings.seed, stop_), curve_(settings.target_error),

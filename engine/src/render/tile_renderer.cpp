@@ -23,12 +23,15 @@ struct TileRenderer::Work {
     double deadline;
     TraceContext &trace;
     SampleFaults faults;
+    PassSample passes{};
 };
 
 std::optional<SampleFaults> TileRenderer::render(Film &film, size_t index, uint64_t first, double deadline,
                                                  TraceContext &trace) const {
     const Rectangle &area = film.tiles()[index];
     Work work{Film::Tile(film, index), scene_.film.crop_x + area.x, scene_.film.crop_y + area.y, deadline, trace, {}};
+    if (film.passes() & kPassesOfMore)
+        trace.passes = &work.passes;
     // Blocks are the integrator's. Tiles are made of whole ones, so that their size changes nothing.
     for (uint32_t by = 0; by < area.height; by += kBlockSize)
         for (uint32_t bx = 0; bx < area.width; bx += kBlockSize) {
@@ -70,7 +73,10 @@ bool TileRenderer::render_pixel(Work &work, uint32_t x, uint32_t y, const Rectan
                                         : ShutterTime(sampler.stratified_1d(dimension(Dimension::time)));
         const CameraRay camera = sample_camera_ray(scene_, x, y, sampler.stratified_2d(dimension(Dimension::film)),
                                                    sampler.stratified_2d(dimension(Dimension::lens)), time);
+        if (work.trace.passes)
+            *work.trace.passes = {};
         FilmSample value = integrator_.sample(camera, sampler, shared.get(), work.trace);
+        value.more = work.trace.passes;
         if (value.unfinished && stop_.load(std::memory_order_relaxed))
             return false;
         value.expose(scene_.film.exposure);

@@ -74,7 +74,7 @@ void SceneBuilder::build_camera_and_film() {
 
     const std::vector<Affine> &motion = description_.camera_motion;
     const Affine to_world = motion.empty() ? affine_from_rows(c.to_world) : motion[motion.size() / 2];
-    origin_ = to_world.translation;
+    scene_.origin = origin_ = to_world.translation;
     scene_.camera = make_camera(c, to_world, float(f.height) / float(f.width));
     if (!motion.empty())
         scene_.camera.set_motion(make_motion(motion, origin_));
@@ -89,6 +89,9 @@ void SceneBuilder::build_camera_and_film() {
     film.crop_height = whole ? f.height : f.crop[3] - f.crop[1];
     film.filter_width = f.filter_width;
     film.exposure = f.exposure;
+    film.transparent = f.transparent != 0;
+    film.transparent_width = f.transparent_glass;
+    film.mist_start = f.mist_start, film.mist_depth = f.mist_depth, film.mist_falloff = f.mist_falloff;
     if (f.filter == GLIMMER_BLACKMAN_HARRIS)
         film.filter_inverse = invert_blackman_harris();
     else

@@ -20,8 +20,12 @@ namespace glimmer {
 struct FilmSettings {
     uint32_t width = 1, height = 1;
     uint32_t crop_x = 0, crop_y = 0, crop_width = 1, crop_height = 1;
-    float filter_width = 1;            ///< pixels
-    float exposure = 1;                ///< factor of all light
+    float filter_width = 1;   ///< pixels
+    float exposure = 1;       ///< factor of all light
+    bool transparent = false; ///< the camera does not see the environment
+    /// Widest GGX of glass through which a transparent film is empty too; below 0: none.
+    float transparent_width = -1;
+    float mist_start = 5, mist_depth = 25, mist_falloff = 2;
     std::vector<float> filter_inverse; ///< inverse CDF over [0, 1] -> [-0.5, 0.5] of the width; empty: box
 };
 
@@ -35,6 +39,7 @@ class Scene {
     Interaction interaction(const Ray &ray, const Hit &hit) const;
 
     Camera camera;
+    Vec3d origin; ///< of all coordinates here, in the caller's
     FilmSettings film;
     Materials materials;
     std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot

@@ -32,6 +32,23 @@ Vec2f ShadingPoint::uv() const {
     return sum;
 }
 
+Vec2f ShadingPoint::map_uv() const {
+    if (is_sphere())
+        return uv();
+    for (const MeshAttribute &a : mesh().attributes)
+        if (a.name == "uv" && a.domain == GLIMMER_PER_CORNER && a.components >= 2) {
+            const std::array<float, 3> w = weights();
+            Vec2f sum;
+            for (size_t k = 0; k < 3; ++k) {
+                const float *values = a.values.data() + (3 * size_t(surface.primitive) + k) * a.components;
+                sum.x += values[0] * w[k];
+                sum.y += values[1] * w[k];
+            }
+            return sum;
+        }
+    return uv();
+}
+
 Vec3f ShadingPoint::dpdu() const {
     if (is_sphere()) {
         const Vec3f n = surface.geometric_normal;

@@ -68,6 +68,9 @@ class ShadingPoint {
     Vec3d object_position() const;
     /// The mesh's texture coordinates; of a sphere, longitude about +z from -x and latitude, both 0 to 1.
     Vec2f uv() const;
+    /// What the pass of texture coordinates shows: the mesh's attribute "uv" by corners, where it has one, or else
+    /// uv().
+    Vec2f map_uv() const;
     /// The derivative of the position by the first texture coordinate; any tangent where the mesh has none.
     Vec3f dpdu() const;
 

@@ -26,7 +26,21 @@ AOV_CHANNELS = {
     "object_index": "X",
     "material_index": "X",
     "sample_count": "X",
+    "alpha": "A",
+    "position": "XYZ",
+    "uv": "UVA",
+    "mist": "Z",
+    "emit": "RGB",
+    "environment": "RGB",
+    **{
+        f"{lobe}_{part}": "RGB"
+        for lobe in ("diffuse", "glossy", "transmission")
+        for part in ("direct", "indirect", "color")
+    },
+    "volume_direct": "RGB",
+    "volume_indirect": "RGB",
 }
+IN_THE_MAIN_LAYER = ("combined", "alpha")
 
 
 def merge(folder: Path, *names: str) -> "subprocess.CompletedProcess[str]":

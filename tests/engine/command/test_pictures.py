@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.engine import scenes
-from tests.engine.command.pictures import AOV_CHANNELS
+from tests.engine.command.pictures import AOV_CHANNELS, IN_THE_MAIN_LAYER
 from tests.engine.scenes import hazy_moon, read_pfm, read_pixels, render, run_glimmer, write_scene
 
 pytestmark = pytest.mark.usefixtures("glimmer_command")
@@ -37,8 +37,9 @@ def test_one_sample_has_no_standard_error(tmp_path: Path) -> None:
 
 def test_every_aov(tmp_path: Path) -> None:
     picture = render(tmp_path, hazy_moon(), "--spp", 2, "--aov", ",".join(AOV_CHANNELS))
-    expected = {f"{name}.{c}" for name, channels in AOV_CHANNELS.items() if name != "combined" for c in channels}
-    assert picture.channels.keys() == expected | {"R", "G", "B"}
+    layers = {name: channels for name, channels in AOV_CHANNELS.items() if name not in IN_THE_MAIN_LAYER}
+    expected = {f"{name}.{c}" for name, channels in layers.items() for c in channels}
+    assert picture.channels.keys() == expected | {"R", "G", "B", "A"}
     assert (picture.channels["sample_count.X"] == 2).all()
 
 
@@ -56,6 +57,28 @@ def test_crop_is_a_data_window(tmp_path: Path) -> None:
     part = render(tmp_path, content, "--spp", 3, "--aov", "depth", name="part")
     assert part.window == (5, 2, 20, 13) and part.size == (24, 16)
     assert all(np.array_equal(part.channels[name], whole.channels[name][2:13, 5:20]) for name in whole.channels)
+
+
+def test_a_transparent_picture_has_alpha(tmp_path: Path) -> None:
+    """Premultiplied in an .exr, straight in a .png; merged like colours."""
+    content = scenes.changed(scenes.furnace(), ("film", "transparent"), True)
+    picture = render(tmp_path, content, "--spp", 8)
+    alpha = picture.channels["A"]
+    assert alpha.min() == 0 and alpha.max() == 1 and ((alpha > 0) & (alpha < 1)).any()
+    assert not picture.rgb[alpha == 0].any()
+    path = tmp_path / "out.png"
+    assert run_glimmer(tmp_path / "out.json", "-o", path, "--spp", 8).returncode == 0
+    spec, pixels = read_pixels(path, "uint8")
+    assert spec.nchannels == 4
+    np.testing.assert_array_equal(pixels[..., 3], np.rint(255 * alpha))
+    linear = np.where(alpha > 0, picture.channels["G"] / np.where(alpha > 0, alpha, 1), 0).astype(np.float64)
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055)
+    assert np.abs(pixels[..., 1] - 255 * np.clip(encoded, 0, 1)).max() <= 0.51
+    other = render(tmp_path, content, "--spp", 8, "--seed", 1, name="other")
+    files = (tmp_path / "out.exr", tmp_path / "other.exr")
+    assert run_glimmer("merge", *files, "-o", tmp_path / "both.exr").returncode == 0
+    both = scenes.read_exr(tmp_path / "both.exr").channels["A"]
+    np.testing.assert_allclose(both, (alpha + other.channels["A"]) / 2, atol=1e-6)
 
 
 def test_pfm(tmp_path: Path) -> None:

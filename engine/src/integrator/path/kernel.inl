@@ -5,6 +5,7 @@
 
 #include "integrator/path/kernels.h"
 #include "integrator/path/medium.inl"
+#include "integrator/path/passes.inl"
 #include "integrator/path/pixel_ris.inl"
 #include "integrator/path/segment.inl"
 #include "integrator/path/surface.inl"

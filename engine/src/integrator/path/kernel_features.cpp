@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/path/kernel_features.h"
 
+#include "film/passes.h"
+
 namespace glimmer {
 
-KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares) {
+KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares, uint32_t passes) {
     KernelFeatures f;
     f.medium = scene.medium.has_value();
     f.bounded_media = f.medium && scene.medium->bounded();
@@ -16,6 +18,7 @@ KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool s
         f.other_lights |= !is_emissive_sphere(scene.lights[i]);
     f.visibility = scene.has_visibility;
     f.estimator_flags = !(flags == kAllEstimators);
+    f.passes = scene.film.transparent || (passes & kPassesOfMore);
     return f;
 }
 

@@ -25,6 +25,7 @@ struct KernelFeatures {
     bool other_lights = false;    ///< lights other than emissive spheres
     bool visibility = false;      ///< objects, lights or an environment that some rays do not see
     bool estimator_flags = false; ///< not all of EstimatorFlags are set
+    bool passes = false;          ///< passes of PassSample, or a transparent film
 
     /// Whether paths can meet a light by chance that light sampling could have found.
     constexpr bool meets_lights() const { return surfaces || medium_walks; }
@@ -36,7 +37,7 @@ struct FeatureText {
     const char *name; ///< for benchmarks
     const char *left_out;
 };
-inline constexpr std::array<FeatureText, 10> kFeatureTexts{{
+inline constexpr std::array<FeatureText, 11> kFeatureTexts{{
     {&KernelFeatures::medium, "medium", "no fog: no distance sampling, no transmittance"},
     {&KernelFeatures::bounded_media, "bounded media", ""},
     {&KernelFeatures::medium_walks, "walks in the medium", ""},
@@ -48,8 +49,9 @@ inline constexpr std::array<FeatureText, 10> kFeatureTexts{{
      "no lights but spheres that shine: no lamps, shining meshes, suns or sky"},
     {&KernelFeatures::visibility, "ray visibility", ""},
     {&KernelFeatures::estimator_flags, "estimator flags", ""},
+    {&KernelFeatures::passes, "passes", ""},
 }};
-inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true, true, true};
+inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true, true, true, true};
 
 /// Whether a kernel with the features `has` can render what needs `needed`.
 constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {
@@ -60,8 +62,9 @@ constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {
 }
 static_assert(sizeof(KernelFeatures) == kFeatureTexts.size(), "a feature without a row");
 
-/// The features that a scene needs. shares: it has light vertices (plan_light_vertex_cache).
-KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares);
+/// The features that a scene needs. shares: it has light vertices (plan_light_vertex_cache). passes: bit set of 1 <<
+/// glimmer_pass.
+KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares, uint32_t passes = 0);
 
 /// What such a scene has no use for, in lines for the user.
 std::vector<std::string> left_out(const KernelFeatures &needed);

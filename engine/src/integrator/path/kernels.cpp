@@ -9,13 +9,19 @@ namespace glimmer {
 
 namespace {
 
+constexpr KernelFeatures without_passes(KernelFeatures features) {
+    features.passes = false;
+    return features;
+}
+
 /// The fewest features first; the last has all.
 constexpr PathKernel kKernels[] = {
     compiled<KernelFeatures{.medium = true}>("spheres that shine, in fog or none"),
     compiled<KernelFeatures{.surfaces = true, .bvh = true}>("surfaces lit by spheres, without fog and glass"),
     compiled<KernelFeatures{.medium = true, .surfaces = true, .bvh = true}>(
         "surfaces lit by spheres, in fog, without glass"),
-    compiled<kAllFeatures>("everything"),
+    compiled<without_passes(kAllFeatures)>("everything"),
+    compiled<kAllFeatures>("everything, and its passes"),
 };
 
 } // namespace

@@ -71,7 +71,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
-        aov_of_scattering(state, PathClass::medium) += state.beta * arriving * (weight / probability);
+        add_scattered(state, PathClass::medium, state.beta * arriving * (weight / probability));
     }
 }
 
@@ -135,6 +135,10 @@ void PathSample<F>::scatter_in_medium(const State &state, float end, const Mediu
                      {origin, state.ray.direction, range.end - range.begin, t - range.begin, pdf, spared}};
     next.passed = {};
     set_kind(next, RayKind::volume);
+    if constexpr (F.passes) {
+        next.passes.in_medium |= state.depth == 0;
+        next.passes.sees_environment = false;
+    }
     ++next.depth;
     ++next.scatter;
     next.specular_depth = 0;
@@ -173,8 +177,8 @@ void PathSample<F>::sample_infinite_lights(const State &state, const Vec3f &x, c
         if (is_black(unshadowed))
             continue;
         const float weight = light->delta ? 1 : balance(share * light->pdf, p_phase * survival);
-        aov_of_scattering(state, PathClass::medium) +=
-            state.beta * unshadowed * visibility(x, *light, state.ray.time) * weight;
+        add_scattered(state, PathClass::medium,
+                      state.beta * unshadowed * visibility(x, *light, state.ray.time) * weight);
     }
 }
 
@@ -196,7 +200,7 @@ void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, c
     if (is_black(arriving))
         return;
     const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);
-    aov_of_scattering(state, PathClass::medium) += state.beta * arriving * weight;
+    add_scattered(state, PathClass::medium, state.beta * arriving * weight);
 }
 
 } // namespace glimmer

@@ -13,7 +13,8 @@ namespace {
 
 class PathIntegrator final : public Integrator {
   public:
-    PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &flags, bool full_kernel)
+    PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &flags, uint32_t passes,
+                   bool full_kernel)
         : scene_(scene), limits_(limits), flags_(flags),
           around_camera_(dielectrics_at(scene, scene.camera.start_region().center, kMidShutter, RayKind::camera)),
           emitter_rays_(scene,
@@ -22,8 +23,10 @@ class PathIntegrator final : public Integrator {
             light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_);
         plan_ = plan_splitting(scene, flags);
         plan_.pixel_ris = plan_.pixel_ris && around_camera_.empty() && !rays_start_apart() && limits.depth > 0;
-        needed_ = needed_by(scene, flags, light_vertices_.cache != nullptr);
-        kernel_ = &path_kernel(full_kernel ? kAllFeatures : needed_);
+        needed_ = needed_by(scene, flags, light_vertices_.cache != nullptr, passes);
+        KernelFeatures all = kAllFeatures;
+        all.passes = needed_.passes;
+        kernel_ = &path_kernel(full_kernel ? all : needed_);
     }
 
     bool shares() const override { return light_vertices_.cache != nullptr; }
@@ -48,13 +51,19 @@ class PathIntegrator final : public Integrator {
                                   dielectrics_at(scene_, camera.ray.origin, camera.ray.time, RayKind::camera), sampler,
                                   trace)
                 : kernel_->sample(context, camera.ray, around_camera_, sampler, trace);
-        if (extra_rays)
-            result.emission +=
-                emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, camera.ray.time, sampler, trace) *
-                primary_weight;
+        if (extra_rays) {
+            const Rgb seen =
+                emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, camera.ray.time, sampler, trace);
+            result.emission += seen * primary_weight;
+            if (trace.passes)
+                trace.passes->emit += seen * primary_weight;
+        }
         if (light_vertices) {
-            result.medium += light_vertices->splatted(camera.pixel_x, camera.pixel_y);
+            const Rgb splatted = light_vertices->splatted(camera.pixel_x, camera.pixel_y);
+            result.medium += splatted;
             result.unfinished |= light_vertices->unfinished;
+            if (trace.passes)
+                trace.passes->volume_indirect += splatted;
         }
         return result;
     }
@@ -94,8 +103,8 @@ class PathIntegrator final : public Integrator {
 } // namespace
 
 std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
-                                                       const EstimatorFlags &flags, bool full_kernel) {
-    return std::make_unique<PathIntegrator>(scene, limits, flags, full_kernel);
+                                                       const EstimatorFlags &flags, uint32_t passes, bool full_kernel) {
+    return std::make_unique<PathIntegrator>(scene, limits, flags, passes, full_kernel);
 }
 
 } // namespace glimmer

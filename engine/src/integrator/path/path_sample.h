@@ -6,6 +6,7 @@
 //   vpl_gather.inl  light scattered more than once, from the light vertices of the wave (../vpl)
 //   surface.inl     scattering at its end
 //   pixel_ris.inl   direct light of what the camera sees, resampled among several points of the pixel
+//   passes.inl      what the passes of PassSample show
 // They are compiled together, for several sets of features, by kernel.inl. docs/method.md derives the estimator; its
 // section 2 says which of them brings which paths.
 #pragma once
@@ -103,6 +104,45 @@ class PathSample {
         return state.seen_directly() ? light_aov(vertex, true) : light_aov(state.path_class, false);
     }
 
+    /// Adds emission that the segment met. is_environment: of what lies beyond everything.
+    void add_met(const State &state, const Rgb &value, bool is_environment = false) {
+        if (!is_environment || !leaves_empty(state))
+            aov_of_emission(state) += value;
+        if constexpr (F.passes)
+            pass_met(state, value, is_environment);
+    }
+    /// Adds light that a vertex on the segment or at its end scatters towards the camera, straight from a light.
+    void add_scattered(const State &state, PathClass vertex, const Rgb &value, const PassState *shares = nullptr) {
+        aov_of_scattering(state, vertex) += value;
+        if constexpr (F.passes)
+            pass_scattered(state, vertex, value, shares);
+    }
+
+    // Passes of PassSample
+
+    void pass_met(const State &state, const Rgb &value, bool is_environment);
+    void pass_scattered(const State &state, PathClass vertex, const Rgb &value, const PassState *shares);
+    /// Adds light to the passes of the vertex that scattered it last before the camera.
+    void pass_light(const PassState &first, const Rgb &value, bool direct);
+    /// What the first surface is, whatever it looks like.
+    void pass_first_surface(const Interaction &surface, ShutterTime time);
+    /// What a surface looks like that the camera sees, if only through others.
+    void pass_surface(const State &state, const Interaction &surface, const Shading &shading);
+    /// Whether the picture is empty where the state's segment meets the environment.
+    bool leaves_empty(const State &state) const {
+        if constexpr (F.passes)
+            return state.passes.sees_environment && scene().film.transparent;
+        else
+            return false;
+    }
+    /// The picture is empty at the end of the segment.
+    void pass_empty(const State &state, float end, const Medium *medium);
+    /// How the lobes share the light that they reflect from wi, or transmit.
+    static PassState shares_of(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi, RayMask visible = kEveryRay);
+    /// The same of a sampled direction, as the path that goes on there takes it along.
+    static void set_shares(State &next, const State &state, const Bsdf &bsdf, const Vec3f &wo, const BsdfSample &s,
+                           const Scene &scene);
+
     // Light vertices
 
     /// Whether light that was scattered before reaches the medium by light vertices. Only asked where it scatters.
@@ -129,7 +169,8 @@ class PathSample {
     bool is_far_side(const State &state, const Hit &hit, const Interaction &surface) const;
     void add_lamps(const State &state, float end, const Medium *medium);
     void add_infinity(const State &state, const Medium *medium);
-    void add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium);
+    void add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium,
+                     bool is_environment = false);
     /// Whether the ray could meet a light; false only where it certainly does not.
     bool may_meet_light(const Ray &ray) const;
     /// The weight of emission met at the end of a segment against light sampling at, or before, its beginning.

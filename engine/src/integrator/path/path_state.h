@@ -59,6 +59,15 @@ enum class EmissionMode : uint8_t {
     only  ///< nothing else of the segment counts: the path ends there
 };
 
+/// What the passes of PassSample ask of a path.
+struct PassState {
+    /// Of its first vertex: the part of the light that came through lobes that reflect diffusely or otherwise; the rest
+    /// was transmitted.
+    Rgb diffuse, glossy;
+    bool in_medium = false;       ///< the first vertex is in a medium
+    bool sees_environment = true; ///< as the camera does: nothing but transparent surfaces lies between
+};
+
 template <KernelFeatures F>
 struct PathState {
     Ray ray;
@@ -71,6 +80,7 @@ struct PathState {
     uint32_t scatter = 0; ///< those in the medium
     PathClass path_class = PathClass::none;
     [[no_unique_address]] std::conditional_t<F.visibility, RayKind, Absent<3>> kind{}; ///< the camera's at first
+    [[no_unique_address]] std::conditional_t<F.passes, PassState, Absent<4>> passes{};
     EmissionMode emission_mode = EmissionMode::mis;
     uint32_t depth_since_first = 0; ///< vertices from the one that decided path_class on
     uint32_t specular_depth = 0;    ///< mirrors and dielectrics in a row up to here

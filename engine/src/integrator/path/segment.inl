@@ -27,6 +27,7 @@ void PathSample<F>::follow(State &state) {
     Shading shading;
     if (hit && is_held_out(state, *hit)) {
         // Neither the surface nor what is behind it; the medium before it is there.
+        pass_empty(state, end, medium);
     } else if (hit) {
         surface = scene().interaction(state.ray, *hit);
         if constexpr (F.surfaces)
@@ -37,6 +38,8 @@ void PathSample<F>::follow(State &state) {
             note_first_surface(*surface, state.ray.time);
         add_emission(state, *hit, *surface, shading.emission, medium);
     } else {
+        if (leaves_empty(state))
+            pass_empty(state, kInfinity, medium);
         add_infinity(state, medium);
     }
     const EmissionMode emission_mode = state.emission_mode;
@@ -73,6 +76,9 @@ void PathSample<F>::follow(State &state) {
         return;
     if (medium && state.seen_directly()) // absorption before everything dims the picture evenly: no reason to end paths
         state.rr_scale *= medium->least_absorbed(state.ray, end);
+    if constexpr (F.passes)
+        if (state.depth == 0)
+            pass_surface(state, *surface, shading);
     if (passes_through(state, *surface, shading, end, false)) {
         state.emission_mode = emission_mode;
         return push(state);
@@ -143,7 +149,7 @@ template <KernelFeatures F>
 void PathSample<F>::add_medium_emission(const State &state, float end, const Medium *medium) {
     const BoundedMedia *bounded = medium ? medium->bounded() : nullptr;
     if (bounded && bounded->emits() && state.emission_mode != EmissionMode::only) // no light sampling finds it
-        aov_of_emission(state) += state.beta * bounded->emitted(state.ray, end);
+        add_met(state, state.beta * bounded->emitted(state.ray, end));
 }
 
 template <KernelFeatures F>
@@ -155,13 +161,15 @@ void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
             continue;
         const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction, state.ray_flags);
         if (!is_black(radiance))
-            add_emitted(state, radiance * emission_mis_weight(state, light, {kInfinity}), kInfinity, medium);
+            add_emitted(state, radiance * emission_mis_weight(state, light, {kInfinity}), kInfinity, medium,
+                        F.passes && std::holds_alternative<EnvironmentLight>(scene().lights[light]));
     }
 }
 
 template <KernelFeatures F>
-void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium) {
-    aov_of_emission(state) += state.beta * radiance * transmittance(medium, state.ray, distance);
+void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium,
+                                bool is_environment) {
+    add_met(state, state.beta * radiance * transmittance(medium, state.ray, distance), is_environment);
 }
 
 template <KernelFeatures F>

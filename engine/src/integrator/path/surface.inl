@@ -20,6 +20,8 @@ void PathSample<F>::note_first_surface(const Interaction &surface, ShutterTime t
     result_.depth = scene().camera.depth(surface.position, time);
     result_.object_index = surface.object_index;
     result_.material_index = surface.material + 1;
+    if constexpr (F.passes)
+        pass_first_surface(surface, time);
 }
 
 template <KernelFeatures F>
@@ -90,6 +92,8 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
             cross_boundary(next, *oriented_surface);
         if (!survives(next, surface.position, kRouletteScaleAtSurfaces) || (s->specular && !survives_specular(next)))
             continue;
+        if constexpr (F.passes)
+            set_shares(next, state, bsdf, wo_local, *s, scene());
         next.ray_flags = ray_flags(bsdf, *s);
         next.emission_mode = lit_by_ris && !s->specular ? EmissionMode::skip : EmissionMode::mis;
         set_kind(next, kind_of(*s));
@@ -198,6 +202,8 @@ void PathSample<F>::light_surface(const State &state, const Interaction &surface
     next.emission_mode = EmissionMode::only;
     next.beta *= s->weight;
     next.ray_flags = ray_flags(bsdf, *s);
+    if constexpr (F.passes)
+        set_shares(next, state, bsdf, oriented_surface->wo, *s, scene());
     if (s->transmitted)
         cross_boundary(next, *oriented_surface);
     set_kind(next, kind_of(*s));
@@ -221,6 +227,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         LightSample light;
         Rgb value; ///< what it brings unless it is hidden
         float part;
+        [[no_unique_address]] std::conditional_t<F.passes, PassState, Absent<5>> shares{};
     };
     std::array<Candidate, tuning::kMaxLightsSampledEach> candidates;
     uint32_t count = 0;
@@ -250,10 +257,14 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
             value *= uses_cycles_weights()
                          ? cycles_weight(light->pdf / float(scene().lights.size()), pdf(bsdf, wo, wi))
                          : balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
-        if (!is_black(value))
-            candidates[count++] = {*light, value, value.r + value.g + value.b};
+        if (is_black(value))
+            continue;
+        candidates[count] = {*light, value, value.r + value.g + value.b};
+        if constexpr (F.passes)
+            if (state.depth == 0)
+                candidates[count].shares = shares_of(bsdf, wo, wi, light->visible);
+        ++count;
     }
-    Rgb &sum = aov_of_scattering(state, PathClass::surface);
     float parts = 0;
     for (uint32_t i = 0; i < count; ++i)
         parts += candidates[i].part;
@@ -265,8 +276,12 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
             continue;
         const Vec3f origin = surface.origin_towards(c.light.direction);
         const Rgb arriving = c.value * visibility(origin, c.light, state.ray.time, surface.error);
-        if (!is_black(arriving))
-            sum += state.beta * arriving * (1 / tested);
+        if (is_black(arriving))
+            continue;
+        if constexpr (F.passes)
+            add_scattered(state, PathClass::surface, state.beta * arriving * (1 / tested), &c.shares);
+        else
+            add_scattered(state, PathClass::surface, state.beta * arriving * (1 / tested));
     }
 }
 

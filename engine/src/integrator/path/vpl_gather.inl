@@ -55,8 +55,14 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
         return false;
     state.rr_scale *= points;
     const DepthLimits room{context_.limits.depth - state.depth - 1, context_.limits.scatter - state.scatter - 1};
-    aov_of_scattering(state, PathClass::medium) +=
+    const Rgb gathered =
         state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, room, sampler_, trace_);
+    aov_of_scattering(state, PathClass::medium) += gathered;
+    if constexpr (F.passes) {
+        state.passes.in_medium |= state.depth == 0;
+        state.passes.sees_environment = false;
+        pass_light(state.passes, gathered, false);
+    }
     const VplSettings &settings = context_.light_vertices->settings;
     const float u = sampler_.next_1d(); // P(k d0 > d) = 1 - w(d), equation (3)
     const float k =

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the passes of PassSample show of a sample: its light by the vertex that scattered it last before the camera, be
+// that a mirror or glass, and what the camera sees there. Their sum is the sample's radiance.
+#pragma once
+
+#include "bsdf/lobe_albedo.h"
+#include "integrator/path/path_sample.h"
+#include "shading/shading_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glimmer {
+
+template <KernelFeatures F>
+void PathSample<F>::pass_light(const PassState &first, const Rgb &value, bool direct) {
+    PassSample *out = trace_.passes;
+    if (!out)
+        return;
+    if (first.in_medium) {
+        (direct ? out->volume_direct : out->volume_indirect) += value;
+        return;
+    }
+    const Rgb diffuse = value * first.diffuse, glossy = value * first.glossy;
+    (direct ? out->diffuse_direct : out->diffuse_indirect) += diffuse;
+    (direct ? out->glossy_direct : out->glossy_indirect) += glossy;
+    (direct ? out->transmission_direct : out->transmission_indirect) += value - diffuse - glossy;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::pass_met(const State &state, const Rgb &value, bool is_environment) {
+    if (state.depth > 0)
+        return pass_light(state.passes, value, state.depth == 1);
+    if (trace_.passes)
+        (is_environment ? trace_.passes->environment : trace_.passes->emit) += value;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::pass_scattered(const State &state, PathClass vertex, const Rgb &value, const PassState *shares) {
+    if (state.depth > 0)
+        return pass_light(state.passes, value, false);
+    PassState first = shares ? *shares : PassState();
+    first.in_medium = vertex == PathClass::medium;
+    pass_light(first, value, true);
+}
+
+template <KernelFeatures F>
+PassState PathSample<F>::shares_of(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi, RayMask visible) {
+    const auto sees = [&](RayKind kind) { return (visible & mask_of(kind)) != 0; };
+    const Rgb diffuse = sees(RayKind::diffuse) ? eval(bsdf, wo, wi, true, false, false) : Rgb();
+    const Rgb glossy = sees(RayKind::glossy) ? eval(bsdf, wo, wi, false, true, false) : Rgb();
+    const Rgb transmitted = sees(RayKind::transmission) ? eval(bsdf, wo, wi, false, false, true) : Rgb();
+    PassState shares;
+    for (int c = 0; c < 3; ++c)
+        if (const float sum = diffuse[c] + glossy[c] + transmitted[c]; sum > 0) {
+            shares.diffuse[c] = diffuse[c] / sum;
+            shares.glossy[c] = glossy[c] / sum;
+        }
+    return shares;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::set_shares(State &next, const State &state, const Bsdf &bsdf, const Vec3f &wo, const BsdfSample &s,
+                               const Scene &scene) {
+    const auto *glass = std::get_if<Dielectric>(&bsdf[s.lobe].lobe);
+    next.passes.sees_environment &= s.transmitted && glass && glass->alpha <= scene.film.transparent_width;
+    if (state.depth > 0)
+        return;
+    const bool sees_environment = next.passes.sees_environment;
+    next.passes = s.specular ? PassState{{}, Rgb(s.transmitted ? 0.0f : 1.0f)} : shares_of(bsdf, wo, s.wi);
+    next.passes.sees_environment = sees_environment;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::pass_first_surface(const Interaction &surface, ShutterTime time) {
+    PassSample *out = trace_.passes;
+    if (!out)
+        return;
+    out->position = Vec3f(Vec3d(surface.position) + scene().origin);
+    const View view{surface.shading_normal, 0, time};
+    const Vec2f uv = ShadingPoint(*scene().accel, scene().origin, surface, view).map_uv();
+    out->uv = {uv.x, uv.y, 1};
+}
+
+template <KernelFeatures F>
+void PathSample<F>::pass_surface(const State &state, const Interaction &surface, const Shading &shading) {
+    PassSample *out = trace_.passes;
+    if (!out)
+        return;
+    const FilmSettings &film = scene().film;
+    const float behind = scene().camera.distance(surface.position) - film.mist_start;
+    const float mist = film.mist_depth > 0 ? std::clamp(behind / film.mist_depth, 0.0f, 1.0f)
+                       : behind > 0        ? 1.0f
+                                           : 0.0f;
+    const float opaque = mean_component(state.beta * (Rgb(1) - shading.transparency));
+    out->clearness += (1 - std::pow(mist, film.mist_falloff)) * opaque;
+
+    const auto oriented_surface = orient(state, surface, shading);
+    if (!oriented_surface)
+        return;
+    Bsdf bsdf = shading.bsdf;
+    bsdf.eta = oriented_surface->eta;
+    const LobeAlbedo color = lobe_albedo(bsdf, oriented_surface->wo);
+    out->diffuse_color += state.beta * color.diffuse;
+    out->glossy_color += state.beta * color.glossy;
+    out->transmission_color += state.beta * color.transmission;
+}
+
+template <KernelFeatures F>
+void PathSample<F>::pass_empty(const State &state, float end, const Medium *medium) {
+    if constexpr (F.passes)
+        if (trace_.passes && state.passes.sees_environment)
+            trace_.passes->transparency += mean_component(state.beta * transmittance(medium, state.ray, end));
+}
+
+} // namespace glimmer
