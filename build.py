@@ -164,7 +164,7 @@ def compiling(line: str) -> Progress | None:
 
 
 def rendering(line: str) -> Progress | None:
-    """Reads Blender's progress, "Fra:1 Mem:20.2M ... | Sample 3/32 | 9 % | Left 01:12 | relMSE 0.02 (0.01 to 0.03)"."""
+    """Reads Blender's progress, "Fra:1 Mem:20.2M ... | Sample 3/32 | 9 % | Left 01:12 | Noise 14 % (10 to 17 %)"."""
     if not re.match(r"Fra:\d+ ", line):
         return None
     sample = re.search(r"\bSample (\d+)(?:/(\d+))?", line)
@@ -172,13 +172,13 @@ def rendering(line: str) -> Progress | None:
         return Progress("Rendering", details=(re.split(r" \| |^Fra:\d+ ", line)[-1].lower(),))
     fraction = re.search(r"\| (\d+) %", line)
     left = re.search(r"\| Left 0?([\d:]+)", line)
-    error = re.search(r"\| (relMSE [^|]*[^| ])", line)
+    noise = re.search(r"\| (Noise [^|]*[^| ])", line)
     samples = f"{sample[1]} of {sample[2]} samples" if sample[2] else f"{sample[1]} samples"
     return Progress(
         "Rendering",
         int(fraction[1]) / 100 if fraction else None,
         left[1] if left and left[1] != "0:00" else "",
-        (samples, error[1]) if error else (samples,),
+        (samples, noise[1]) if noise else (samples,),
     )
 
 

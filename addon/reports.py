@@ -10,7 +10,9 @@ from bpy.app.handlers import persistent
 
 from .export.scene import Exported
 from .film.display import NOT_CERTIFIABLE, clock, error_text
+from .film.noise import noise_text, seconds_to_half_the_noise, word_for
 from .film.stamp import fields
+from .scene.problems import ENDLESS_FOG
 
 _current: dict[str, dict[str, Any]] = {"last": {}}
 _layers: dict[str, dict[str, Any]] = {}  # of the render that is under way or was the last
@@ -35,7 +37,8 @@ def news() -> int:
 
 def collect(engine_report: dict[str, Any], exported: Exported) -> dict[str, Any]:
     report = dict(engine_report)
-    noticed = {notice.code for notice in exported.notices if notice.code}  # with names, so once is enough
+    # The export says these with names, so once is enough; and of a sky behind fog only where nothing shines inside.
+    noticed = {notice.code for notice in exported.notices if notice.code} | {ENDLESS_FOG}
     warnings = zip(report.get("warnings", []), report.get("warning_codes", []), strict=True)
     kept = [(text, code) for text, code in warnings if code not in noticed]
     report["warnings"] = [text for text, _ in kept]
@@ -61,10 +64,20 @@ def publish(engine: bpy.types.RenderEngine, report: dict[str, Any], layer: str) 
     if result is not None:
         for name, value in fields(report, layer):
             result.stamp_data_add_field(name, value)
-    for line in [*report["export"]["notices"], *report["warnings"]]:
+    notices = report["export"]["notices"]
+    for line in notices:
+        engine.report({"INFO"}, f"Glimmer: {line}")
+    for line in report["warnings"]:
         engine.report({"WARNING"}, f"Glimmer: {line}")
     if report.get("biased_by"):
         engine.report({"INFO"}, f"Glimmer: biased by {', '.join(report['biased_by'])}")
+    if notices and not bpy.app.background:  # last, since the window shows the last one alone
+        engine.report({"WARNING"}, f"Glimmer: {count_of(len(notices))}: Render properties > Differs from Cycles")
+
+
+def count_of(differences: int) -> str:
+    things = "1 thing is" if differences == 1 else f"{differences} things are"
+    return f"{things} not rendered as in Cycles"
 
 
 def summary(report: dict[str, Any]) -> list[str]:
@@ -79,8 +92,30 @@ def summary(report: dict[str, Any]) -> list[str]:
     lines.append(f"Scene read in {export['seconds']:.2f} s, {export['bytes'] / 2**20:.1f} MB")
     if report.get("biased_by"):
         lines.append(f"Biased by {', '.join(report['biased_by'])}")
-    if report.get("left_out"):
-        lines.append(f"Left out: {', '.join(report['left_out'])}")
+    return lines
+
+
+def skipped(report: dict[str, Any]) -> list[str]:
+    """The work that this scene has saved the engine."""
+    return list(report.get("left_out", []))
+
+
+def noise_summary(report: dict[str, Any]) -> list[str]:
+    """How grainy the picture is, and how long until it is half as grainy."""
+    error = report.get("error")
+    if not error:
+        return ["Noise is not known before there are some samples"]
+    lines = [f"Noise about {noise_text(error['relmse'])}: {word_for(error['relmse'])}"]
+    if report.get("seconds_to_half") is not None:
+        seconds = report.get("seconds", {}).get("render", 0.0)
+        lines.append(f"Half of it after {clock(seconds_to_half_the_noise(seconds, report['seconds_to_half']))} more")
+    if report.get("seconds_to_target") is not None:
+        lines.append(f"Noise limit after {clock(report['seconds_to_target'])} more")
+    tails = error.get("tails")
+    if tails and not tails["certifiable"]:
+        lines.append(
+            f"A few very bright pixels, above all {tails['x']}, {tails['y']}, make much of it: it may be worse"
+        )
     return lines
 
 

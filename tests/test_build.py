@@ -248,17 +248,17 @@ def test_elsewhere_progress_is_a_line_now_and_then_and_the_last(monkeypatch: pyt
     [
         ("Fra:1 Mem:18.25M (Peak 18.28M) | Time:00:00.03 | Reading the scene", "Rendering  reading the scene"),
         ("Fra:1 Building", "Rendering  building"),
-        ("Fra:1 Mem:18.2M (Peak 18.4M) | Time:00:01.21 | Sample 0/32 | Engine 58 MB", "Rendering  0 of 32 samples"),
+        ("Fra:1 Mem:18.2M (Peak 18.4M) | Time:00:01.21 | Sample 0/32 | Mem 58 MB", "Rendering  0 of 32 samples"),
         (
             "Fra:1 Mem:20.23M (Peak 20.29M) | Time:01:31.21 | Sample 3/32 | 9 % | Left 04:12"
-            " | relMSE 0.11 (0.073 to 3.6) | Engine 58 MB",
-            "Rendering  [##----------------------]    9 %  4:12 left  3 of 32 samples  relMSE 0.11 (0.073 to 3.6)",
+            " | Noise 33 % (27 to 190 %) | Mem 58 MB",
+            "Rendering  [##----------------------]    9 %  4:12 left  3 of 32 samples  Noise 33 % (27 to 190 %)",
         ),
         (
-            "Fra:12 Sample 32/32 | 100 % | Left 00:00 | relMSE 0.02 | Engine 58 MB",
-            "Rendering  [########################]  100 %  32 of 32 samples  relMSE 0.02",
+            "Fra:12 Sample 32/32 | 100 % | Left 00:00 | Noise 14 % | Mem 58 MB",
+            "Rendering  [########################]  100 %  32 of 32 samples  Noise 14 %",
         ),
-        ("Fra:1 Sample 7 | Left 11:00:02 | Engine 58 MB", "Rendering  11:00:02 left  7 samples"),
+        ("Fra:1 Sample 7 | Left 11:00:02 | Mem 58 MB", "Rendering  11:00:02 left  7 samples"),
     ],
 )
 def test_what_blender_prints_becomes_readable(line: str, text: str) -> None:

@@ -178,7 +178,8 @@ class _Source:
         _note_light_groups(self.depsgraph, notices)
         environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
         lights = tuple(collector.lights)
-        warn_of_black_sky(scene.world, environment, lights, medium, notices)
+        something_shines = any(shines(item.material) for item in collector.materials)
+        warn_of_black_sky(scene.world, environment, lights, medium, notices, something_shines)
         return SceneDescription(
             film=seen.film,
             camera=camera,

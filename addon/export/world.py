@@ -65,8 +65,14 @@ def warn_of_black_sky(
     lights: tuple[Lamp, ...],
     medium: Medium | None,
     notices: Notices,
+    something_shines: bool = False,
 ) -> None:
-    """Space without end in fog is opaque: nothing from outside of it arrives."""
+    """Space without end in fog is opaque: nothing from outside of it arrives. Who has put lights inside knows that.
+
+    something_shines: emissive surfaces.
+    """
+    if something_shines or any(not isinstance(lamp, SunLight) for lamp in lights):
+        return
     if medium is None or not any(a + s > 0.0 for a, s in zip(medium.sigma_a, medium.sigma_s, strict=True)):
         return
     unseen = ["its background"] if any(environment.radiance) else []

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..native.render import NativeRender, Progress, Tile
 from ..scene.description import SceneDescription
 from ..scene.problems import GlimmerError
+from .noise import FIREFLIES, noise_text
 from .passes import Reader, hand_over
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ NOT_CERTIFIABLE = "Not certifiable: heavy tails"
 
 def status(progress: Progress, samples: int) -> str:
     """The line that Blender shows while rendering, and prints in background, where `build.py render` reads it and who
-    watches a render farm looks for "Error". samples: of each pixel in the end; 0 is no limit.
+    watches a render farm looks for "Noise". samples: of each pixel in the end; 0 is no limit.
     """
     parts = [f"Sample {progress.samples}/{samples}" if samples else f"Sample {progress.samples}"]
     if progress.fraction > 0:
@@ -39,12 +40,12 @@ def status(progress: Progress, samples: int) -> str:
     if progress.seconds_left is not None:
         parts.append(f"Left {clock(progress.seconds_left)}")
     if not isnan(progress.relmse):
-        parts.append(f"relMSE {error_text(progress.relmse, progress.relmse_low, progress.relmse_high)}")
+        parts.append(f"Noise {noise_text(progress.relmse, progress.relmse_low, progress.relmse_high)}")
         if progress.heavy_tails:
-            parts.append(NOT_CERTIFIABLE)
+            parts.append(FIREFLIES)
         if progress.seconds_to_target is not None:
-            parts.append(f"Target in {clock(progress.seconds_to_target)}")
-    parts.append(f"Engine {progress.peak_bytes / 2**20:.0f} MB")
+            parts.append(f"Noise limit in {clock(progress.seconds_to_target)}")
+    parts.append(f"Mem {progress.peak_bytes / 2**20:.0f} MB")
     return " | ".join(parts)
 
 

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the user can do beyond rendering."""
 
-from . import export_scene, five_moons_world
+from . import export_scene, five_moons_world, sampling_presets
+
+_PARTS = (export_scene, five_moons_world, sampling_presets)
 
 
 def register() -> None:
-    export_scene.register()
-    five_moons_world.register()
+    for part in _PARTS:
+        part.register()
 
 
 def unregister() -> None:
-    five_moons_world.unregister()
-    export_scene.unregister()
+    for part in reversed(_PARTS):
+        part.unregister()

@@ -5,7 +5,8 @@ from zlib import crc32
 
 import bpy
 
-from ..callbacks import of_group_and
+from ..callbacks import of_group, of_group_and
+from ..film.noise import percent, relmse_of
 from ..native.library import load
 from ..scene.problems import GlimmerError
 
@@ -40,14 +41,41 @@ def _announce_change(group: bpy.types.PropertyGroup, context: bpy.types.Context)
 _announce = of_group_and(_announce_change)
 
 
+# What artists and Cycles count in, of what the engine and scene files do.
+
+
+def _noise_limit(group: bpy.types.PropertyGroup) -> float:
+    return percent(group.target_error)
+
+
+def _set_noise_limit(group: bpy.types.PropertyGroup, value: float) -> None:
+    group.target_error = relmse_of(value)
+
+
+def _bounces(group: bpy.types.PropertyGroup) -> int:
+    return max(group.max_depth - 1, 0)
+
+
+def _set_bounces(group: bpy.types.PropertyGroup, value: int) -> None:
+    group.max_depth = value + 1
+
+
+def _volume_bounces(group: bpy.types.PropertyGroup) -> int:
+    return max(group.max_scatter - 1, 0)
+
+
+def _set_volume_bounces(group: bpy.types.PropertyGroup, value: int) -> None:
+    group.max_scatter = value + 1
+
+
 class GlimmerSceneSettings(bpy.types.PropertyGroup):
     """How a scene is rendered. The first limit that is met ends the render."""
 
     use_samples: bpy.props.BoolProperty(
-        name="Samples", description="Stop when every pixel has this many samples", default=True
+        name="Limit Samples", description="Stop when every pixel has this many samples", default=True
     )
     samples: bpy.props.IntProperty(
-        name="Samples", description="Samples of every pixel", default=64, min=1, soft_max=65536
+        name="Max Samples", description="Samples of every pixel", default=64, min=1, soft_max=65536
     )
     viewport_samples: bpy.props.IntProperty(
         name="Viewport Samples",
@@ -64,21 +92,41 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         update=_announce,
     )
     use_seconds: bpy.props.BoolProperty(
-        name="Time Limit", description="Stop after this render time, loading and building left out", default=False
+        name="Limit Time", description="Stop after this render time, loading and building left out", default=False
     )
     seconds: bpy.props.FloatProperty(
-        name="Time Limit", default=60.0, min=0.01, soft_max=86400.0, subtype="TIME_ABSOLUTE", unit="TIME_ABSOLUTE"
+        name="Time Limit",
+        description="Render time of a picture, loading and building left out",
+        default=60.0,
+        min=0.01,
+        soft_max=86400.0,
+        subtype="TIME_ABSOLUTE",
+        unit="TIME_ABSOLUTE",
     )
     use_target_error: bpy.props.BoolProperty(
-        name="Error Target", description="Stop when the picture is known to be this good", default=False
+        name="Limit Noise", description="Stop when the noise is surely below this", default=False
     )
     target_error: bpy.props.FloatProperty(
         name="Error Target",
         description="Relative mean squared error of the picture, by the upper end of its interval",
-        default=0.001,
+        default=0.0009,
         min=1e-9,
         soft_max=0.1,
         precision=5,
+    )
+    noise_limit: bpy.props.FloatProperty(
+        name="Noise Limit",
+        description="Stop when the noise is surely below this part of what a pixel should show: 3 % looks clean, 10 %"
+        " grainy. It is the root of target_error",
+        subtype="PERCENTAGE",
+        min=0.01,
+        max=1000.0,
+        soft_min=0.5,
+        soft_max=50.0,
+        precision=1,
+        get=of_group(_noise_limit),
+        set=of_group_and(_set_noise_limit),
+        options=set(),
     )
     use_adaptive: bpy.props.BoolProperty(
         name="Adaptive Sampling",
@@ -97,8 +145,8 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         name="Seed per Frame", description="Give every frame of an animation noise of its own", default=False
     )
     use_max_depth: bpy.props.BoolProperty(
-        name="Limit Depth",
-        description="Cut light off after a number of scatterings. This makes pictures darker",
+        name="Limit Bounces",
+        description="Cut light off after a number of bounces. This makes pictures darker",
         default=False,
     )
     max_depth: bpy.props.IntProperty(
@@ -108,9 +156,19 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         min=0,
         soft_max=1024,
     )
+    max_bounces: bpy.props.IntProperty(
+        name="Max Bounces",
+        description="Bounces of light, at surfaces and in haze, as Cycles counts them: 0 is direct light alone. It is"
+        " max_depth less one",
+        min=0,
+        soft_max=1024,
+        get=of_group(_bounces),
+        set=of_group_and(_set_bounces),
+        options=set(),
+    )
     use_max_scatter: bpy.props.BoolProperty(
-        name="Limit Fog Depth",
-        description="Cut light off after a number of scatterings in fog. This makes pictures darker",
+        name="Limit Volume Bounces",
+        description="Cut light off after a number of bounces in haze. This makes pictures darker",
         default=False,
     )
     max_scatter: bpy.props.IntProperty(
@@ -119,6 +177,16 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         default=12,
         min=0,
         soft_max=1024,
+    )
+    volume_bounces: bpy.props.IntProperty(
+        name="Volume",
+        description="Bounces of light in haze, as Cycles counts them: 0 is light that was scattered there once. It is"
+        " max_scatter less one",
+        min=0,
+        soft_max=1024,
+        get=of_group(_volume_bounces),
+        set=of_group_and(_set_volume_bounces),
+        options=set(),
     )
     use_curve_files: bpy.props.BoolProperty(
         name="Write Error Curve",
@@ -135,6 +203,7 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
     )
     filter: bpy.props.EnumProperty(
         name="Pixel Filter",
+        description="How samples are weighed into pixels",
         items=(
             ("BLACKMAN_HARRIS", "Blackman-Harris", "Soft edges, as Cycles has by default"),
             ("BOX", "Box", "Exactly the pixel's square"),

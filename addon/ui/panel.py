@@ -34,6 +34,15 @@ def draw_wrapped(layout: bpy.types.UILayout, context: bpy.types.Context, text: s
         column.label(text=line, icon="BLANK1" if index else icon)
 
 
+def limit_row(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, switch: str, value: str) -> None:
+    """A limit, and before it whether there is one."""
+    row = layout.row(align=True, heading=settings.bl_rna.properties[value].name)
+    row.prop(settings, switch, text="")
+    field = row.row(align=True)
+    field.active = getattr(settings, switch)
+    field.prop(settings, value, text="")
+
+
 def draw_node_input(layout: bpy.types.UILayout, tree: bpy.types.NodeTree, name: str) -> None:
     """An input of the output node, with the nodes behind it, as Blender's own material panels show it."""
     output = tree.get_output_node("CYCLES")

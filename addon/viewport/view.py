@@ -15,6 +15,7 @@ from ..export.film import export_view_settings, film_exposure, filter_settings, 
 from ..export.instance import BulkReader
 from ..export.scene import View, export_scene
 from ..film.display import status
+from ..reports import count_of
 from ..scene.description import Film, SceneDescription
 from ..scene.fingerprint import fingerprint
 from ..scene.problems import Notices, describe
@@ -179,8 +180,7 @@ class RenderedView:
         else:
             parts.append(status(frame.progress, scene.glimmer.viewport_samples))
         if self._differences:
-            things = "1 thing is" if self._differences == 1 else f"{self._differences} things are"
-            parts.append(f"{things} not rendered as in Cycles: see Render properties > Differs from Cycles")
+            parts.append(f"{count_of(self._differences)}: see Render properties > Differs from Cycles")
         return " | ".join(parts)
 
 

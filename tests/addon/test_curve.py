@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from addon.film import noise
 from addon.film.display import status
 from addon.film.png import write_png
 from addon.film.stamp import fields
@@ -151,11 +152,29 @@ def progress(heavy_tails: bool = False, seconds_to_target: float | None = 24.0) 
 
 def test_the_status_line_tells_error_interval_and_time_to_the_target() -> None:
     line = status(progress(), 128)
-    assert "Sample 64/128 | 50 % | Left 00:08 | relMSE 0.03 (0.02 to 0.04)" in line
+    assert "Sample 64/128 | 50 % | Left 00:08 | Noise 17 % (14 to 20 %)" in line
     assert "error" not in line.lower(), "the managers of render farms take such a line for a failure"
-    assert "Target in 00:24" in line and "certifiable" not in line
-    assert "Target" not in status(progress(seconds_to_target=None), 128)
-    assert "Not certifiable: heavy tails" in status(progress(heavy_tails=True), 128)
+    assert "Noise limit in 00:24" in line and "Fireflies" not in line
+    assert "limit" not in status(progress(seconds_to_target=None), 128)
+    assert "Fireflies" in status(progress(heavy_tails=True), 128)
+
+
+def test_noise_is_the_root_of_the_error() -> None:
+    assert noise.percent(0.0009) == pytest.approx(3.0)
+    assert noise.relmse_of(noise.percent(0.0123)) == pytest.approx(0.0123)
+    assert noise.noise_text(1e-4) == "1 %" and noise.noise_text(2.25) == "150 %"
+    assert [noise.word_for(noise.relmse_of(p)) for p in (0.5, 2.0, 5.0, 20.0, 80.0)] == [
+        word for _, word in noise.WORDS
+    ]
+
+
+@pytest.mark.parametrize("power", [1.0, 0.6, 1.4])
+def test_half_the_noise_takes_a_quarter_of_the_error(power: float) -> None:
+    """Of an error that falls as a power of the time."""
+    seconds = 30.0
+    to_half = seconds * (2.0 ** (1.0 / power) - 1.0)
+    found = noise.seconds_to_half_the_noise(seconds, to_half)
+    assert ((seconds + found) / seconds) ** -power == pytest.approx(0.25)
 
 
 def test_metadata_names_its_layer_and_leaves_out_what_is_not_known() -> None:

@@ -19,7 +19,7 @@ import inside
 inside.enable()
 from glimmer.native import library, machine
 from glimmer.ui.preferences import GlimmerPreferences
-from glimmer.ui.render import GLIMMER_PT_sampling
+from glimmer.ui.sampling import GLIMMER_PT_sampling
 
 class Layout:
     alert = active = use_property_split = use_property_decorate = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How wrong the picture is: in numbers, and as a curve that grows while it renders."""
+"""How noisy the picture is: in words and numbers, and as a curve that grows while it renders."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ import numpy as np
 from .. import reports
 from ..native import error_curve
 from ..native.library import load
-from .panel import GlimmerPanel
+from .panel import GlimmerPanel, draw_wrapped
 
 SIDE = 320  # pixels of the plot
 SCALE = 11.0  # of the plot in the panel, in rows
@@ -43,23 +43,39 @@ def _icon(report: dict[str, Any]) -> int:
     return int(preview.icon_id)
 
 
-class GLIMMER_PT_error(GlimmerPanel, bpy.types.Panel):
-    bl_label = "Error"
+class GLIMMER_PT_noise(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Noise"
     bl_context = "render"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         report = reports.last()
-        column = self.layout.column(align=True)
+        if "spp" not in report:
+            self.layout.label(text="Nothing rendered yet")
+            return
+        first, *others = reports.noise_summary(report)
+        draw_wrapped(self.layout, context, first, "RENDER_RESULT")
+        for line in others:
+            draw_wrapped(self.layout, context, line, "BLANK1")
+
+
+class GLIMMER_PT_noise_details(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Details"
+    bl_parent_id = "GLIMMER_PT_noise"
+    bl_context = "render"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        report = reports.last()
         if "spp" in report:
             for line in reports.error_summary(report):
-                column.label(text=line)
+                draw_wrapped(self.layout, context, line, "DOT")
             if error_curve.has_points(report):
                 self.layout.template_icon(icon_value=_icon(report), scale=SCALE)
-        else:
-            column.label(text="Nothing rendered yet")
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
         self.layout.prop(context.scene.glimmer, "use_curve_files")
+
+
+_CLASSES = (GLIMMER_PT_noise, GLIMMER_PT_noise_details)
 
 
 def _look() -> float:
@@ -74,7 +90,8 @@ def _look() -> float:
 
 
 def register() -> None:
-    bpy.utils.register_class(GLIMMER_PT_error)
+    for panel in _CLASSES:
+        bpy.utils.register_class(panel)
     if not bpy.app.background:
         bpy.app.timers.register(_look, first_interval=LOOK_SECONDS, persistent=True)
 
@@ -85,4 +102,5 @@ def unregister() -> None:
     if _previews:
         bpy.utils.previews.remove(_previews.pop("all"))
     _shown["news"] = -1
-    bpy.utils.unregister_class(GLIMMER_PT_error)
+    for panel in reversed(_CLASSES):
+        bpy.utils.unregister_class(panel)
