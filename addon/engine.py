@@ -63,7 +63,8 @@ class GlimmerRenderEngine(bpy.types.RenderEngine):
     def update_render_passes(
         self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
     ) -> None:
-        for item in passes.enabled(renderlayer):
+        is_denoised = scene is not None and scene.glimmer.use_denoising
+        for item in passes.enabled(renderlayer, is_denoised):
             name = item.name(bpy.app.version)
             self.register_pass(scene, renderlayer, name, len(item.channels), item.channels, item.kind)
 

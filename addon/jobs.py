@@ -48,6 +48,7 @@ class RenderJob:
             display = Display(engine, render, self.exported.scene, self.layer, watch if is_final else None)
             display.run()
             report = reports.collect(render.report(), self.exported)
+            reports.note_denoising(report, display.denoised, display.problem)
         if is_final:
             reports.publish(engine, report, self.layer)
 
@@ -70,7 +71,8 @@ export_request: dict[str, Path] = {}
 
 
 def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Job:
-    enabled = (passes.COMBINED,) if engine.is_preview else passes.enabled(depsgraph.view_layer_eval)
+    is_denoised = depsgraph.scene_eval.glimmer.use_denoising
+    enabled = (passes.COMBINED,) if engine.is_preview else passes.enabled(depsgraph.view_layer_eval, is_denoised)
     engine.update_stats("", "Reading the scene")
 
     def camera_view(scene: bpy.types.Scene, notices: Notices) -> View:

@@ -9,6 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .export.scene import Exported
+from .film import denoise
 from .film.display import NOT_CERTIFIABLE, clock, error_text
 from .film.noise import noise_text, seconds_to_half_the_noise, word_for
 from .film.stamp import fields
@@ -58,12 +59,27 @@ def update(report: dict[str, Any], layer: str) -> None:
     _news["count"] += 1
 
 
-def publish(engine: bpy.types.RenderEngine, report: dict[str, Any], layer: str) -> None:
-    update(report, layer)
+def note_denoising(report: dict[str, Any], denoised: bool, problem: str) -> None:
+    """problem: why the picture could not be denoised; empty where it was, or was not to be."""
+    report["denoised"] = denoised
+    if denoised:
+        report["biased_by"] = [*report.get("biased_by", []), denoise.BIAS]
+    if problem:
+        report["warnings"].append(problem)
+        report["warning_codes"].append("not_denoised")
+
+
+def stamp(engine: bpy.types.RenderEngine, fields: list[tuple[str, str]]) -> None:
+    """Into the metadata of the picture."""
     result = engine.get_result()
     if result is not None:
-        for name, value in fields(report, layer):
+        for name, value in fields:
             result.stamp_data_add_field(name, value)
+
+
+def publish(engine: bpy.types.RenderEngine, report: dict[str, Any], layer: str) -> None:
+    update(report, layer)
+    stamp(engine, fields(report, layer))
     notices = report["export"]["notices"]
     for line in notices:
         engine.report({"INFO"}, f"Glimmer: {line}")
@@ -125,6 +141,8 @@ def error_summary(report: dict[str, Any]) -> list[str]:
     if not error:
         return ["Not known before there are some samples"]
     lines = [f"relMSE {error_text(error['relmse'], error['low'], error['high'])}"]
+    if report.get("denoised"):
+        lines.insert(0, "Of the noisy image; that of the denoised picture is not known")
     tails = error.get("tails")
     if tails and not tails["certifiable"]:
         lines.append(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..film.passes import RenderPass, engine_names, missing
+from ..film.passes import DENOISED_BY, RenderPass, engine_names, missing
 from ..scene.description import Film, Mist, RenderSettings
 from ..scene.problems import GlimmerError, Notices
 
@@ -116,7 +116,10 @@ def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:
 
 def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_preview: bool = False) -> RenderSettings:
     settings = scene.glimmer
+    is_denoised = settings.use_denoising and not is_preview
     names = engine_names(passes)
+    if is_denoised:
+        names = tuple(dict.fromkeys((*names, *DENOISED_BY)))
     if is_preview:
         return RenderSettings(samples=PREVIEW_SAMPLES, seconds=PREVIEW_SECONDS, passes=names)
     seed = settings.seed
@@ -136,4 +139,5 @@ def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_p
         max_scatter=settings.max_scatter if settings.use_max_scatter else None,
         adaptive=settings.use_adaptive,
         passes=names,
+        denoise=is_denoised,
     )

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from ..native.render import NativeRender, Progress, Tile
 from ..scene.description import SceneDescription
 from ..scene.problems import GlimmerError
+from . import denoise
 from .noise import FIREFLIES, noise_text
-from .passes import Reader, hand_over
+from .passes import Pixels, Reader, hand_over
 
 if TYPE_CHECKING:
     import bpy
@@ -74,6 +75,9 @@ class Display:
         self._engine = engine
         self._render = render
         self._settings = scene.settings
+        self._denoises = scene.settings.denoise
+        self.denoised = False
+        self.problem = ""  # why the picture could not be denoised
         self._layer = layer
         self._watch = watch
         x0, y0, x1, y1 = scene.film.window
@@ -89,6 +93,15 @@ class Display:
         for number, material in zip(numbers, scene.materials, strict=True):
             table[number + 1] = material.pass_index
         return table
+
+    def _denoised(self, tile: Tile) -> Pixels | None:
+        try:
+            pixels = denoise.denoised(lambda name: self._render.read(name, tile))
+        except GlimmerError as error:
+            self.problem = str(error)
+            return None
+        self.denoised = True
+        return pixels
 
     def run(self) -> None:
         """Until the render has ended or the user has cancelled it; what is there by then is kept."""
@@ -146,7 +159,11 @@ class Display:
 
     def _fill(self, layer_passes: Any, tile: Tile, final: bool) -> None:
         reader = Reader(
-            lambda name: self._render.read(name, tile), self._has_alpha, self._material_indices, self._to_camera
+            lambda name: self._render.read(name, tile),
+            self._has_alpha,
+            self._material_indices,
+            self._to_camera,
+            self._denoised(tile) if final and self._denoises else None,
         )
         asked = [(item.name, item.channels) for item in layer_passes]
         layer_passes.foreach_set("rect", hand_over(asked, (tile.height, tile.width), reader, final))

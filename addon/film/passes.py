@@ -125,9 +125,14 @@ MISSING_OF_CYCLES = {
 }
 
 
-def enabled(view_layer: object) -> tuple[RenderPass, ...]:
-    """The passes that a view layer asks for, combined first."""
-    return (COMBINED, *(item for item in OPTIONAL if item.is_on(view_layer)))
+NOISY = next(item for item in OPTIONAL if item.short_name == "Noisy Image")
+DENOISED_BY = ("albedo", "normal")  # what the engine is asked for besides the picture where that is to be denoised
+
+
+def enabled(view_layer: object, is_denoised: bool = False) -> tuple[RenderPass, ...]:
+    """The passes that a view layer asks for, combined first. is_denoised: the picture as it was rendered is one."""
+    switched = (item for item in OPTIONAL if item.is_on(view_layer) or (is_denoised and item is NOISY))
+    return (COMBINED, *switched)
 
 
 def missing(view_layer: object) -> list[str]:
@@ -173,6 +178,13 @@ class Reader:
     has_alpha: bool = False
     material_indices: NDArray[np.float32] | None = None  # Blender's; the engine's numbers count from 1, 0 is none
     to_camera: NDArray[np.floating] | None = None  # (3, 3), of directions in the world
+    denoised: Pixels | None = None  # R G B in place of the engine's
+
+    def shown(self) -> Pixels:
+        """The picture, (height, width, 4)."""
+        if self.denoised is None:
+            return self.combined()
+        return with_alpha(self.denoised, self.read(ALPHA) if self.has_alpha else None)
 
     def combined(self) -> Pixels:
         return with_alpha(self.read(COMBINED.engine_name), self.read(ALPHA) if self.has_alpha else None)
@@ -203,7 +215,7 @@ def hand_over(
     parts: list[Pixels] = []
     for name, count in layer_passes:
         if name == COMBINED.short_name:
-            parts.append(flat(reader.combined()))
+            parts.append(flat(reader.shown()))
         elif is_final and name in by_name:
             parts.append(flat(reader.pixels(by_name[name])))
         else:

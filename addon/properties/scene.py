@@ -68,6 +68,15 @@ def _set_volume_bounces(group: bpy.types.PropertyGroup, value: int) -> None:
     group.max_scatter = value + 1
 
 
+def _update_passes(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """The compositor's sockets follow."""
+    for view_layer in group.id_data.view_layers:
+        view_layer.update_render_passes()
+
+
+_change_passes = of_group_and(_update_passes)
+
+
 class GlimmerSceneSettings(bpy.types.PropertyGroup):
     """How a scene is rendered. The first limit that is met ends the render."""
 
@@ -127,6 +136,13 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         get=of_group(_noise_limit),
         set=of_group_and(_set_noise_limit),
         options=set(),
+    )
+    use_denoising: bpy.props.BoolProperty(
+        name="Denoise",
+        description="Runs Open Image Denoise over the finished picture, as this Blender carries it; the rendered one is"
+        " kept as the pass Noisy Image. A bias, and how wrong the picture is then is not known",
+        default=False,
+        update=_change_passes,
     )
     use_adaptive: bpy.props.BoolProperty(
         name="Adaptive Sampling",

@@ -432,6 +432,7 @@ class RenderSettings:
     max_scatter: int | None = None
     adaptive: bool = False
     passes: tuple[str, ...] = ("combined",)  # the engine's names
+    denoise: bool = False  # by the add-on, in the end
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@
 import bpy
 from bl_ui.utils import PresetPanel
 
+from ..film import denoise
 from ..native.library import load
 from ..scene.problems import GlimmerError
 from .panel import GlimmerPanel, draw_wrapped, limit_row
@@ -72,6 +73,9 @@ class GLIMMER_PT_sampling_render(_SamplingPanel, bpy.types.Panel):
         if not (settings.use_target_error or settings.use_samples or settings.use_seconds):
             draw_wrapped(layout, context, "Without a limit, a render ends after 64 samples", "INFO")
         layout.prop(settings, "use_adaptive", text="Adaptive")
+        layout.prop(settings, "use_denoising")
+        if settings.use_denoising and denoise.find() is None:
+            draw_wrapped(layout, context, denoise.ABSENT, "ERROR")
 
 
 class GLIMMER_PT_sampling_advanced(_SamplingPanel, bpy.types.Panel):

@@ -119,6 +119,17 @@ def transparent() -> None:
     scene.glimmer.property_unset("filter")
 
 
+def denoised() -> None:
+    scene = new_scene()
+    inside.use_format("OPEN_EXR_MULTILAYER")
+    scene.glimmer.use_denoising, scene.glimmer.samples = True, 4
+    inside.render(OUT / "denoised.exr")
+    facts["denoised_report"] = dict(reports.last())
+    scene.glimmer.use_denoising = False
+    inside.render(OUT / "not_denoised.exr")
+    scene.glimmer.samples = 8
+
+
 def compositor(scene: Any) -> None:
     """The picture is the albedo pass, by way of the compositor."""
     if hasattr(scene, "compositing_node_group"):  # 5.0
@@ -223,6 +234,7 @@ settings()
 scene_file()
 layers_and_passes()
 transparent()
+denoised()
 animation()
 hexagon_field()
 (OUT / "facts.json").write_text(json.dumps(facts))

@@ -162,6 +162,22 @@ def test_a_view_layer_shows_its_own_collections(out: Path) -> None:
     assert np.abs(other - picture(out / "full.exr")).max() > 0.05
 
 
+def test_a_denoised_picture_keeps_the_noisy_one(out: Path, host: Host, facts: dict[str, Any]) -> None:
+    found, report = channels(out / "denoised.exr"), facts["denoised_report"]
+    shown, noisy = (layer_pass(found, "ViewLayer", name, "RGB") for name in ("Combined", "Noisy Image"))
+    np.testing.assert_array_equal(noisy, layer_pass(channels(out / "not_denoised.exr"), "ViewLayer", "Combined", "RGB"))
+    if not host.is_module:  # Debian's Blender has no denoiser
+        assert not report["denoised"] and report["biased_by"] == []
+        assert any("no Open Image Denoise" in warning for warning in report["warnings"])
+        np.testing.assert_array_equal(shown, noisy)
+        return
+    assert report["denoised"] and report["biased_by"] == ["denoising"]
+    assert facts["report"]["biased_by"] == []
+    shown_grain, grain = (np.abs(np.diff(pixels[25:, :30], axis=1)).mean() for pixels in (shown, noisy))
+    assert shown_grain < 0.5 * grain  # of the floor
+    np.testing.assert_allclose(shown.mean(axis=(0, 1)), noisy.mean(axis=(0, 1)), rtol=0.05)
+
+
 def test_passes_reach_the_compositor(out: Path, facts: dict[str, Any]) -> None:
     assert set(facts["names"]) <= set(facts["sockets"])
     albedo = layer_pass(channels(out / "layers.exr"), "ViewLayer", "Albedo", "RGB")
