@@ -22,6 +22,7 @@ from ..scene.description import (
     Material,
     Medium,
     Mirror,
+    Mix,
     NamedMaterial,
     Null,
     Rgb,
@@ -39,7 +40,7 @@ from .nodes import Nodes
 from .principled import principled
 from .sockets import Input, Source
 from .translate.image import Images
-from .translate.surface import tangent_input
+from .translate.surface import normal_input, tangent_input
 from .translate.values import Number, Triple, clamped, clamped_color, math, op, scaled, squared, triple
 from .volume import volume_medium
 
@@ -55,9 +56,16 @@ MULTIPLE_SCATTERING_FROM = (4, 3)
 # Up to here Cycles' facets are masked towards both directions independently.
 SEPARABLE_MASKING_BEFORE = (3, 5)
 
-# From here on the angle at each facet says how much of light rough glass reflects; before, that at the surface, which
-# shows on very rough glass.
-FACETS_REFLECT_FROM, VERY_ROUGH = (4, 0), 0.3
+# From here on the angle at each facet says how much of light rough glass reflects; before, that at the surface.
+FACETS_REFLECT_FROM = (4, 0)
+
+# Inputs that are left out where they are not 0.
+LEFT_OUT = {
+    "Thin Film Thickness": "the thin film is not supported and left out",
+    "Thin Wall": "a thin wall is not supported; it is the surface of a solid body",
+    "Transmission Dispersion Scale": "dispersion is not supported; all colours are refracted alike",
+    "Anisotropy": "anisotropy of glass is not supported; its roughness is round",
+}
 
 # What an object without a material shows, here and in Cycles.
 DEFAULT_SURFACE = Lambert((0.8, 0.8, 0.8))
@@ -153,6 +161,7 @@ class _Shaders:
         if translate is None:
             return self._unknown(source)
         self._bend_normal(source)
+        self._note_left_out(source)
         return translate(self, source)
 
     def _bend_normal(self, source: Source) -> None:
@@ -168,6 +177,15 @@ class _Shaders:
             self.normal = normal if isinstance(normal, Op) else op("combine", *normal)
         elif normal is not self.normal:
             self.nodes.notice(source.node, "shaders of one material cannot have several normals; the first is used")
+
+    def _note_left_out(self, source: Source) -> None:
+        """Inputs of later Blenders that no shader here knows."""
+        for name, words in LEFT_OUT.items():
+            socket = source.node.inputs.get(name)
+            if socket is None or (name == "Anisotropy" and source.node.bl_idname != "ShaderNodeBsdfGlass"):
+                continue
+            if not self.nodes.is_free(source, socket) or socket.default_value:
+                self.nodes.notice(source.node, words)
 
     def _unknown(self, source: Source) -> Material:
         node = source.node
@@ -283,8 +301,9 @@ class _Shaders:
     def glass(self, source: Source) -> Material:
         node = source.node
         color, alpha = self.albedo(source), self._alpha(source)
-        if self.version < FACETS_REFLECT_FROM and (isinstance(alpha, Op) or alpha > VERY_ROUGH):
-            self.nodes.notice(node, "its rough glass reflects by the angle of each facet, not by that of the surface")
+        is_rough = isinstance(alpha, Op) or alpha >= MIRROR_ALPHA
+        if node.bl_idname == "ShaderNodeBsdfGlass" and is_rough and self.reflects_by_surface(source):
+            return self.glass_by_surface(source, max(self.number(source, "IOR"), 1e-3), color, alpha, color, alpha)
         return Glass(
             max(self.number(source, "IOR"), 1e-3),
             0.0 if isinstance(alpha, float) and alpha < MIRROR_ALPHA else alpha,
@@ -293,6 +312,27 @@ class _Shaders:
             lobes="refraction" if node.bl_idname == "ShaderNodeBsdfRefraction" else "both",
             facets=self.facets(source),
         )
+
+    def reflects_by_surface(self, source: Source) -> bool:
+        """Whether the angle at the surface says how much of light rough glass reflects, not that at each facet."""
+        if self.version >= FACETS_REFLECT_FROM:
+            return False
+        if source.node.distribution == "MULTI_GGX":
+            self.nodes.notice(source.node, "light that facets of rough glass send on to each other is approximated")
+            return False
+        return True
+
+    def glass_by_surface(
+        self, source: Source, ior: float, reflected: Triple, alpha: Number, transmitted: Triple, alpha_beyond: Number
+    ) -> Mix:
+        if self.nodes.constants_only:
+            self.nodes.notice(source.node, "its rough glass reflects as it is seen from the front, from everywhere")
+            weight: Number = ((ior - 1.0) / (ior + 1.0)) ** 2
+        else:
+            weight = op("fresnel", ior, normal_input(self.nodes, source))
+        gloss = Conductor(alpha, f0=reflected, f90=reflected, masking=self.masking)
+        beyond = Glass(ior, alpha_beyond, transmission=transmitted, lobes="refraction", masking=self.masking)
+        return Mix(weight, gloss, beyond)
 
     def transparent(self, source: Source) -> Material:
         transmittance = self.albedo(source)

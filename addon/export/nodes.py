@@ -162,6 +162,9 @@ class Nodes:
         """What passes through a node when it is muted, or else the middle of its range."""
         inner = [link for link in source.node.internal_links if link.to_socket == source.output]
         subject = f"{what} cannot be rendered" if what else "cannot be rendered"
+        if inner and inner[0].from_socket.name == "Normal" and self.is_free(source, inner[0].from_socket):
+            self.notice(source.node, f"{subject}; the surface's own normal is used in its place")
+            return surface.geometry(self, "normal")
         if inner:
             self.notice(source.node, f"{subject}; its {inner[0].from_socket.name} is used in its place")
             return converted(

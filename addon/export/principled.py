@@ -17,6 +17,7 @@ from ..scene.description import (
     Layer,
     Light,
     Material,
+    Mix,
     Null,
     Rgb,
     Sheen,
@@ -65,6 +66,10 @@ class Shaders(Protocol):
     def number(self, source: Source, *names: str, default: float = 0.0) -> float: ...
     def along_tangent(self, source: Source, metal: Conductor, aspect: Number, rotation: str) -> Conductor: ...
     def rough_diffuse(self, albedo: Triple, roughness: float) -> Lambert: ...
+    def reflects_by_surface(self, source: Source) -> bool: ...
+    def glass_by_surface(
+        self, source: Source, ior: float, reflected: Triple, alpha: Number, transmitted: Triple, alpha_beyond: Number
+    ) -> Mix: ...
 
 
 def principled(shaders: Shaders, source: Source) -> Material:
@@ -72,6 +77,8 @@ def principled(shaders: Shaders, source: Source) -> Material:
     inputs = _Inputs(shaders, source)
     result = _surface_before_4(inputs) if is_old else _surface(inputs)
     emission = inputs.emission()
+    if emission != BLACK and not is_old:
+        emission = multiplied(emission, _passed_by_layers(inputs))
     if emission != BLACK:
         result = replace(result, emission=emission)
     opacity = inputs.unit("Alpha", default=1.0)
@@ -159,8 +166,6 @@ def _surface(inputs: _Inputs) -> Surface:
 def _opaque(inputs: _Inputs, tint: Triple) -> Surface:
     """A dielectric over a diffuse base."""
     shaders, source = inputs.shaders, inputs.source
-    if shaders.number(source, "Thin Film Thickness") > 0.0:
-        inputs.notice("the thin film is not supported and left out")
     diffuse = shaders.rough_diffuse(inputs.base, shaders.number(source, "Diffuse Roughness"))
     level = shaders.varying_number(source, "Specular IOR Level")
     f0 = clamped(product(level, 2.0 * normal_reflectance(inputs.ior)))
@@ -182,6 +187,19 @@ def _coat_tint(inputs: _Inputs, weight: Number, ior: float) -> Triple:
     inputs.notice("the coat's tint is taken as it is seen at 45 degrees, and colours what lies beneath it")
     way = (1.0 - SEEN_AT / ior**2) ** -0.5
     return lerp(WHITE, (max(tint[0], 0.0) ** way, max(tint[1], 0.0) ** way, max(tint[2], 0.0) ** way), weight)
+
+
+def _passed_by_layers(inputs: _Inputs) -> Triple:
+    """Of what shines beneath the coat, seen from the front, where sheen keeps next to nothing."""
+    weight = inputs.unit("Coat Weight")
+    if weight == 0.0:
+        return WHITE
+    shaders, source = inputs.shaders, inputs.source
+    f0 = normal_reflectance(max(shaders.number(source, "Coat IOR"), 1.0))
+    tint = shaders.color(source, "Coat Tint")
+    passed = lerp(WHITE, (max(tint[0], 0.0), max(tint[1], 0.0), max(tint[2], 0.0)), weight)
+    inputs.notice("what shines beneath the coat is dimmed as it is seen from the front, from everywhere")
+    return scaled(passed, difference(1.0, product(weight, f0)))
 
 
 def _note_coat_normal(inputs: _Inputs, name: str) -> None:
@@ -206,12 +224,7 @@ def _surface_before_4(inputs: _Inputs) -> Surface:
     if through != 1.0:
         result = _lobes_before_4(inputs, diffuse_share)
     if through != 0.0:
-        if inputs.alpha != 0.0:
-            inputs.notice("its rough glass reflects by the angle of each facet, not by that of the surface")
-        if inputs.unit("Transmission Roughness") != 0.0:
-            inputs.notice("a roughness of its own for what is transmitted is not supported; it has that of the surface")
-        glass = Glass(inputs.ior, inputs.alpha, transmission=inputs.base, facets=inputs.facets)
-        result = mix(through, result, glass)
+        result = mix(through, result, _glass_before_4(inputs))
     assert not isinstance(result, (Light, Null))
     coat = inputs.unit("Clearcoat")
     if coat != 0.0:
@@ -222,6 +235,21 @@ def _surface_before_4(inputs: _Inputs) -> Surface:
         result = Add(Conductor(alpha, f0=f0, f90=f90, ior=1.5, masking=inputs.shaders.masking), result)
         _note_coat_normal(inputs, "Clearcoat Normal")
     return result
+
+
+def _glass_before_4(inputs: _Inputs) -> Surface:
+    shaders, source = inputs.shaders, inputs.source
+    own = inputs.unit("Transmission Roughness")
+    if not shaders.reflects_by_surface(source):
+        if own != 0.0:
+            inputs.notice("a roughness of its own for what is transmitted is not supported; it has that of the surface")
+        return Glass(inputs.ior, inputs.alpha, transmission=inputs.base, facets=inputs.facets)
+    smoothness = product(difference(1.0, inputs.unit("Roughness")), difference(1.0, own))
+    beyond = squared(difference(1.0, smoothness))
+    if inputs.alpha == 0.0 and beyond == 0.0:
+        return Glass(inputs.ior, transmission=inputs.base)
+    color = lerp(WHITE, inputs.base, inputs.unit("Specular Tint"))
+    return shaders.glass_by_surface(source, inputs.ior, color, inputs.alpha, inputs.base, beyond)
 
 
 def _lobes_before_4(inputs: _Inputs, diffuse_share: Number) -> Surface:

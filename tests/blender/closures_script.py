@@ -103,8 +103,18 @@ CASES: dict[str, Callable[[], Any]] = {
     "principled subsurface half": p(Subsurface_Weight=0.5, Subsurface_Radius=(0.1, 0.05, 0.02)),
     "principled subsurface colour": p(Subsurface=0.5, Subsurface_Color=BLUE, Subsurface_Radius=(0.1, 0.05, 0.02)),
     "principled emission": p(Emission_Color=BLUE, Emission_Strength=0.5),
+    "principled emission under coat": p(
+        Emission_Color=BLUE, Emission_Strength=0.5, Coat_Weight=1.0, Coat_Tint=RED, Coat_IOR=1.8
+    ),
     "principled alpha": p(Alpha=0.5),
     "principled thin film": p(Thin_Film_Thickness=400.0),
+    "principled metallic thin film": p(Thin_Film_Thickness=400.0, Metallic=1.0),
+    "metallic thin film": shader("ShaderNodeBsdfMetallic", "GGX", Thin_Film_Thickness=400.0, Roughness=0.3),
+    "glass thin film": shader("ShaderNodeBsdfGlass", "GGX", Thin_Film_Thickness=400.0, Roughness=0.1),
+    "glass anisotropic": shader("ShaderNodeBsdfGlass", "GGX", Anisotropy=0.8, Roughness=0.5),
+    "principled thin wall": p(Thin_Wall=True, Transmission_Weight=1.0),
+    "principled dispersion": p(Transmission_Dispersion_Scale=1.0, Transmission_Weight=1.0, Roughness=0.0),
+    "principled transmission roughness": p(Transmission=1.0, Roughness=0.2, Transmission_Roughness=0.5),
     "principled diffuse rough": p(Diffuse_Roughness=1.0, Specular_IOR_Level=0.0),
     **{f"diffuse {r}": shader("ShaderNodeBsdfDiffuse", Color=OCHRE, Roughness=r) for r in (0.0, 0.5, 1.0)},
     **{
