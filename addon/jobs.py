@@ -84,7 +84,7 @@ def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> J
         return View(
             film,
             export_camera(evaluated, (film.width, film.height), notices),
-            export_settings(scene, enabled, engine.is_preview),
+            export_settings(scene, depsgraph.view_layer_eval, enabled, engine.is_preview),
         )
 
     # A preview's depsgraph is not the scene's.

@@ -114,7 +114,23 @@ def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:
     )
 
 
-def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_preview: bool = False) -> RenderSettings:
+def layer_samples(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> int:
+    """A view layer's own number takes the scene's place; Cycles may have it as a bound, or nothing. 0: no limit."""
+    settings = scene.glimmer
+    samples = settings.samples if settings.use_samples else 0
+    use = getattr(getattr(scene, "cycles", None), "use_layer_samples", "USE")
+    own = view_layer.samples if use != "IGNORE" else 0
+    if own and samples and use == "BOUNDED":
+        return min(own, samples)
+    return own or samples
+
+
+def export_settings(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    passes: tuple[RenderPass, ...],
+    is_preview: bool = False,
+) -> RenderSettings:
     settings = scene.glimmer
     is_denoised = settings.use_denoising and not is_preview
     names = engine_names(passes)
@@ -129,7 +145,7 @@ def export_settings(scene: bpy.types.Scene, passes: tuple[RenderPass, ...], is_p
     render = scene.render
     return RenderSettings(
         integrator=settings.integrator or None,
-        samples=settings.samples if settings.use_samples else 0,
+        samples=layer_samples(scene, view_layer),
         seconds=settings.seconds if settings.use_seconds else 0.0,
         target_error=settings.target_error if settings.use_target_error else 0.0,
         seed=seed,

@@ -87,6 +87,7 @@ def layers_and_passes() -> None:
     for item in passes.OPTIONAL:
         setattr(item.owner(first), item.switch, True)
     without = scene.view_layers.new("Without Ball")
+    without.samples = 3
     hidden = bpy.data.collections.new("Hidden")
     scene.collection.children.link(hidden)
     ball = bpy.data.objects["Ball"]
@@ -94,6 +95,7 @@ def layers_and_passes() -> None:
     hidden.objects.link(ball)
     without.layer_collection.children["Hidden"].exclude = True
     inside.render(OUT / "layers.exr")
+    facts["layer_samples"] = {name: report["spp"] for name, report in reports.layers().items()}
     compositor(scene)
     scene.view_layers.remove(without)
     for item in passes.OPTIONAL:

@@ -178,6 +178,10 @@ def test_a_denoised_picture_keeps_the_noisy_one(out: Path, host: Host, facts: di
     np.testing.assert_allclose(shown.mean(axis=(0, 1)), noisy.mean(axis=(0, 1)), rtol=0.05)
 
 
+def test_a_view_layer_may_have_samples_of_its_own(facts: dict[str, Any]) -> None:
+    assert facts["layer_samples"] == {"ViewLayer": 8, "Without Ball": 3}
+
+
 def test_passes_reach_the_compositor(out: Path, facts: dict[str, Any]) -> None:
     assert set(facts["names"]) <= set(facts["sockets"])
     albedo = layer_pass(channels(out / "layers.exr"), "ViewLayer", "Albedo", "RGB")
