@@ -18,6 +18,7 @@ from . import (
     sampling,
     simplify,
     view_layer,
+    visibility,
     world,
 )
 
@@ -37,6 +38,7 @@ _PARTS = (
     light,
     material,
     world,
+    visibility,
     header,
     add_menu,
     preferences,

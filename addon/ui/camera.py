@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Depth of field. Blender's panels belong to EEVEE and Workbench, and also hold what Glimmer does not render: blades,
-rotation and ratio of the aperture.
+"""Depth of field. Blender's panels belong to EEVEE and Workbench, and hold also what Glimmer does not render: blades
+and ratio of the aperture, which stand here only where a file has set them.
 """
 
 import bpy
 
-from .panel import GlimmerPanel
+from .panel import GlimmerPanel, draw_wrapped
 
 
 class GLIMMER_PT_depth_of_field(GlimmerPanel, bpy.types.Panel):
@@ -31,6 +31,14 @@ class GLIMMER_PT_depth_of_field(GlimmerPanel, bpy.types.Panel):
         distance.active = dof.focus_object is None
         distance.prop(dof, "focus_distance", text="Focus Distance")
         layout.prop(dof, "aperture_fstop")
+        if not is_round(dof):
+            draw_wrapped(layout, context, "The aperture is round in Glimmer, whatever these say", "INFO")
+            for name in ("aperture_blades", "aperture_rotation", "aperture_ratio"):
+                layout.prop(dof, name)
+
+
+def is_round(dof: bpy.types.CameraDOFSettings) -> bool:
+    return dof.aperture_blades < 3 and dof.aperture_ratio == 1.0
 
 
 def register() -> None:

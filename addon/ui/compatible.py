@@ -17,6 +17,7 @@ HIDDEN = {
     "DATA_PT_spot",
     "RENDER_PT_freestyle",
     "RENDER_PT_simplify",
+    "RENDER_PT_simplify_greasepencil",
     "RENDER_PT_simplify_render",
     "RENDER_PT_simplify_viewport",
     "RENDER_PT_grease_pencil_render",
@@ -31,6 +32,7 @@ HIDDEN = {
 BORROWED = {
     "EEVEE_MATERIAL_PT_context_material",
     "EEVEE_MATERIAL_PT_viewport_settings",
+    "EEVEE_WORLD_PT_mist",
     "MATERIAL_PT_preview",
     "MATERIAL_PT_viewport",
 }

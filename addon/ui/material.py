@@ -40,7 +40,33 @@ class GLIMMER_PT_volume(_MaterialPanel, bpy.types.Panel):
         draw_node_input(self.layout, context.material.node_tree, "Volume")
 
 
-_CLASSES = (GLIMMER_PT_surface, GLIMMER_PT_volume)
+class GLIMMER_PT_displacement(_MaterialPanel, bpy.types.Panel):
+    bl_label = "Displacement"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.material.use_nodes
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        draw_node_input(self.layout, context.material.node_tree, "Displacement")
+
+
+class GLIMMER_PT_material_settings(_MaterialPanel, bpy.types.Panel):
+    bl_label = "Settings"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        material = context.material
+        self.layout.use_property_split = True
+        self.layout.prop(material, "pass_index")
+        owner = material if hasattr(material, "displacement_method") else getattr(material, "cycles", None)  # 4.1
+        if owner is not None:
+            self.layout.prop(owner, "displacement_method", text="Displacement")
+
+
+_CLASSES = (GLIMMER_PT_surface, GLIMMER_PT_volume, GLIMMER_PT_displacement, GLIMMER_PT_material_settings)
 
 
 def register() -> None:

@@ -23,6 +23,9 @@ class GLIMMER_PT_motion_blur(GlimmerPanel, bpy.types.Panel):
         if owner is not None:
             layout.prop(owner, "motion_blur_position", text="Position")
         layout.prop(render, "motion_blur_shutter")
+        cycles = getattr(context.scene, "cycles", None)
+        if getattr(cycles, "rolling_shutter_type", "NONE") != "NONE":
+            layout.prop(cycles, "rolling_shutter_type", text="Rolling: not rendered")
 
 
 class GLIMMER_PT_shutter_curve(GlimmerPanel, bpy.types.Panel):
@@ -54,6 +57,8 @@ class GLIMMER_PT_object_motion_blur(GlimmerPanel, bpy.types.Panel):
         layout, settings = self.layout, context.object.cycles
         layout.use_property_split = True
         layout.active = context.scene.render.use_motion_blur and settings.use_motion_blur
+        if context.object.type not in ("CAMERA", "EMPTY"):
+            layout.prop(settings, "use_deform_motion", text="Deformation")
         layout.prop(settings, "motion_steps", text="Steps")
 
 

@@ -10,16 +10,18 @@ MOST_VERTICES = 100_000  # that a panel reads each time it is drawn
 
 
 class GLIMMER_PT_object(GlimmerPanel, bpy.types.Panel):
-    bl_label = "Glimmer"
+    bl_label = "Analytic Sphere"
     bl_context = "object"
+    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.object is not None and context.object.type == "MESH"
+        item = context.object
+        return super().poll(context) and item is not None and item.type == "MESH" and not item.glimmer_field.enabled
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.use_property_split = True
-        self.layout.prop(context.object.glimmer, "is_sphere")
+        self.layout.prop(context.object.glimmer, "is_sphere", text="Render as a Sphere")
         why = why_no_sphere(context) if context.object.glimmer.is_sphere else ""
         if why:
             self.layout.label(text=why, icon="ERROR")

@@ -34,7 +34,7 @@ def draw_wrapped(layout: bpy.types.UILayout, context: bpy.types.Context, text: s
         column.label(text=line, icon="BLANK1" if index else icon)
 
 
-def limit_row(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, switch: str, value: str) -> None:
+def limit_row(layout: bpy.types.UILayout, settings: bpy.types.bpy_struct, switch: str, value: str) -> None:
     """A limit, and before it whether there is one."""
     row = layout.row(align=True, heading=settings.bl_rna.properties[value].name)
     row.prop(settings, switch, text="")

@@ -33,8 +33,14 @@ class GLIMMER_PT_film(GlimmerPanel, bpy.types.Panel):
         layout.prop(settings, "filter")
         if settings.filter != "BOX":
             layout.prop(settings, "filter_width")
-        if hasattr(context.scene, "cycles"):
-            layout.prop(context.scene.cycles, "film_exposure")
+        cycles, render = getattr(context.scene, "cycles", None), context.scene.render
+        if cycles is not None:
+            layout.prop(cycles, "film_exposure")
+        layout.prop(render, "film_transparent", text="Transparent")
+        if cycles is not None and render.film_transparent:
+            limit_row(layout, cycles, "film_transparent_glass", "film_transparent_roughness")
+        if render.use_multiview:
+            layout.prop(render, "use_multiview", text="Stereoscopy: not rendered")
 
 
 class GLIMMER_PT_performance(GlimmerPanel, bpy.types.Panel):

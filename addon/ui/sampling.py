@@ -34,7 +34,7 @@ class GLIMMER_PT_sampling_presets(PresetPanel, bpy.types.Panel):
         column.emboss = "PULLDOWN_MENU"
         column.operator_context = "EXEC_DEFAULT"
         column.operator_enum("render.glimmer_sampling_preset", "kind")
-        super().draw(context)
+        PresetPanel.draw(self, context)
 
 
 class GLIMMER_PT_sampling(_SamplingPanel, bpy.types.Panel):

@@ -24,9 +24,25 @@ class GLIMMER_PT_passes(GlimmerPanel, bpy.types.Panel):
             column.prop(owner, item.switch, text=text)
 
 
+class GLIMMER_PT_view_layer_override(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Override"
+    bl_context = "view_layer"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        self.layout.prop(context.view_layer, "material_override", text="Material")
+        self.layout.prop(context.view_layer, "use_motion_blur", text="Motion Blur")
+
+
+_CLASSES = (GLIMMER_PT_passes, GLIMMER_PT_view_layer_override)
+
+
 def register() -> None:
-    bpy.utils.register_class(GLIMMER_PT_passes)
+    for panel in _CLASSES:
+        bpy.utils.register_class(panel)
 
 
 def unregister() -> None:
-    bpy.utils.unregister_class(GLIMMER_PT_passes)
+    for panel in reversed(_CLASSES):
+        bpy.utils.unregister_class(panel)

@@ -14,6 +14,14 @@ class _WorldPanel(GlimmerPanel):
         return super().poll(context) and context.world is not None
 
 
+class GLIMMER_PT_world_preview(_WorldPanel, bpy.types.Panel):
+    bl_label = "Preview"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.template_preview(context.world)
+
+
 class GLIMMER_PT_world_surface(_WorldPanel, bpy.types.Panel):
     bl_label = "Surface"
 
@@ -61,7 +69,7 @@ def _has_volume(world: bpy.types.World) -> bool:
     return output is not None and output.inputs["Volume"].is_linked
 
 
-_CLASSES = (GLIMMER_PT_world_surface, GLIMMER_PT_world_volume, GLIMMER_PT_world_volume_nodes)
+_CLASSES = (GLIMMER_PT_world_preview, GLIMMER_PT_world_surface, GLIMMER_PT_world_volume, GLIMMER_PT_world_volume_nodes)
 
 
 def register() -> None:
