@@ -64,7 +64,7 @@ class GLIMMER_PT_light_options(GlimmerPanel, bpy.types.Panel):
             return
         column.prop(cycles, "max_bounces")
         if light.type == "AREA":
-            layout.prop(cycles, "is_portal", text="Portal: gives no light")
+            layout.prop(cycles, "is_portal", text="Portal")
         if light.type == "SPOT" and light.use_square:
             layout.prop(light, "use_square", text="Square: not rendered")
 

@@ -21,6 +21,8 @@ NEEDS_NO_PANEL = {
     "CyclesRenderSettings.samples": "Glimmer's own is meant",
     "CyclesRenderSettings.seed": "Glimmer's own is meant",
     "CyclesRenderSettings.tile_size": "Glimmer's own is meant",
+    "CyclesRenderSettings.use_denoising": "Glimmer's own is meant",
+    "CyclesRenderLayerSettings.use_denoising": "Glimmer's own is meant",
     "GlimmerSceneSettings.max_depth": "drawn as max_bounces",
     "GlimmerSceneSettings.max_scatter": "drawn as volume_bounces",
     "GlimmerSceneSettings.target_error": "drawn as noise_limit",
