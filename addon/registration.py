@@ -25,14 +25,14 @@ _log = logging.getLogger(__name__)
 def register() -> None:
     other = _package_at_work()
     if other not in (None, __package__):
-        _log.error(
-            "Glimmer is installed twice: %s (%s) is at work, and %s (%s) does nothing; remove one of them in "
-            "Preferences > Add-ons and start Blender again",
-            other,
-            _folder(other),
-            __package__,
-            _folder(__package__),
+        text = (
+            f"Glimmer is installed twice: {other} ({_folder(other)}) is at work, and {__package__}"
+            f" ({_folder(__package__)}) does nothing; remove one of them in Preferences > Add-ons and start Blender"
+            " again"
         )
+        _log.error("%s", text)
+        ui.preferences.register_notice(text)
+        _registered.append(ui.preferences)
         return
     try:
         library.find()

@@ -25,9 +25,26 @@ class GlimmerPreferences(bpy.types.AddonPreferences):
         draw_wrapped(self.layout, context, f"For Linux with glibc {glibc} or later, on x86-64 with AVX2", "BLANK1")
 
 
+class GlimmerNotice(bpy.types.AddonPreferences):
+    """In their place, of a package that does nothing."""
+
+    bl_idname = ADDON
+    text = ""
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_wrapped(self.layout, context, self.text, "ERROR")
+
+
+def register_notice(text: str) -> None:
+    GlimmerNotice.text = text
+    bpy.utils.register_class(GlimmerNotice)
+
+
 def register() -> None:
     bpy.utils.register_class(GlimmerPreferences)
 
 
 def unregister() -> None:
-    bpy.utils.unregister_class(GlimmerPreferences)
+    for cls in (GlimmerPreferences, GlimmerNotice):
+        if cls.is_registered:
+            bpy.utils.unregister_class(cls)
