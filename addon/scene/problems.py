@@ -35,7 +35,7 @@ ENDLESS_FOG = "endless_fog"  # the engine's code, and that of the notice which s
 class Notice:
     """Something of the scene that is rendered in another way than it was written, and how."""
 
-    where: str  # "object 'Moon', material 'Red', node 'Noise Texture'": the parts that apply
+    where: str  # "material 'Red' of object 'Moon', node 'Noise Texture'": the parts that apply
     what: str
     code: str = ""  # where a program looks for it
 
@@ -43,10 +43,11 @@ class Notice:
         return f"{self.where}: {self.what}" if self.where else self.what
 
 
-def place(object_name: str = "", material: str = "", node: str = "") -> str:
-    """The words for a place in a Blender scene."""
-    parts = (("object", object_name), ("material", material), ("node", node))
-    return ", ".join(f"{kind} '{name}'" for kind, name in parts if name)
+def place(object_name: str = "", material: str = "") -> str:
+    """The words for a place in a Blender scene: a material first, since that is what one edits."""
+    if object_name and material:
+        return f"material '{material}' of object '{object_name}'"
+    return f"material '{material}'" if material else f"object '{object_name}'" if object_name else ""
 
 
 @dataclass

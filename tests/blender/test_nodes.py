@@ -144,7 +144,7 @@ def test_principled_default(facts: dict[str, Any], host: Host) -> None:
     assert (gloss.masking, gloss.facets) == (("smith", "multiple") if host.is_module else ("smith_separable", "single"))
 
 
-NAMED = "object 'Thing', material 'Test"
+NAMED = "material 'Test"
 
 
 @pytest.mark.parametrize("name", ["texture", "procedural"])

@@ -281,8 +281,8 @@ def test_what_differs_from_cycles_is_shown_before_a_render_says_it(facts: dict[s
     found = facts["differences"]
     assert sorted(found) == sorted(facts["differences_rendered"])
     for words in ("object 'Ball'", "object 'Text'", "object 'AREA'"):
-        assert any(line.startswith(words) for line in found), words
+        assert any(words in line for line in found), words
     (of_material,) = facts["differences_of_material"]
-    assert of_material.startswith("object 'Ball', material 'ShaderNodeBsdfToon")
+    assert of_material.startswith("material 'ShaderNodeBsdfToon")
     assert " ".join(facts["differences_drawn"]) == " ".join(found)
-    assert not any(line.startswith("object 'Ball'") for line in facts["differences_after_edit"])
+    assert not any("object 'Ball'" in line for line in facts["differences_after_edit"])
