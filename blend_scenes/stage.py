@@ -153,8 +153,18 @@ def field(scene: Any, plate: Any, bevel: Any, **parameters: Any) -> Any:
     return tools("hexfield.field").create("Hexagon Field", values, plate, bevel, scene.collection)
 
 
+def look_through_camera() -> None:
+    """The file opens with its picture."""
+    for window in bpy.context.window_manager.windows:
+        for space in (area.spaces.active for area in window.screen.areas if area.type == "VIEW_3D"):
+            space.shading.type = "RENDERED"
+            space.region_3d.view_perspective = "CAMERA"
+            space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
+
+
 def save(script: str) -> Path:
     """Writes the .blend beside its script, or into the folder after `--` on the command line."""
+    look_through_camera()
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     folder = Path(arguments[0]).resolve() if arguments else Path(script).resolve().parent
     path = folder / (Path(script).stem + ".blend")
