@@ -59,6 +59,9 @@ SEPARABLE_MASKING_BEFORE = (3, 5)
 # From here on the angle at each facet says how much of light rough glass reflects; before, that at the surface.
 FACETS_REFLECT_FROM = (4, 0)
 
+# Of a normal that a bump or normal map turns.
+UNSOFTENED = "bumps that light grazes are brighter than in Cycles, which softens them there"
+
 # Inputs that are left out where they are not 0.
 LEFT_OUT = {
     "Thin Film Thickness": "the thin film is not supported and left out",
@@ -173,8 +176,13 @@ class _Shaders:
             self.nodes.notice(source.node, "bump and normal maps are left out; the surface is smooth")
             return
         normal = triple(self.nodes.socket_value(source, socket))
+        if isinstance(normal, Op) and normal.name == "geometry" and normal.modes[0] == "normal":
+            return  # the surface's own
         if self.normal is self.nodes.bumped_normal:
             self.normal = normal if isinstance(normal, Op) else op("combine", *normal)
+            settings = getattr(self.material, "cycles", None)
+            if getattr(settings, "use_bump_map_correction", True):
+                self.nodes.notice(source.node, UNSOFTENED)
         elif normal is not self.normal:
             self.nodes.notice(source.node, "shaders of one material cannot have several normals; the first is used")
 
