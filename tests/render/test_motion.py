@@ -9,8 +9,9 @@ import pytest
 
 from addon.scene import description as d
 from tests.engine.library import Render, Scene
-from tests.render.build import Array, Builder, floor, grey, look_at, sky
-from tests.render.statistics import Measurement, Pictures, check_mean
+from tests.render.build import Array, Builder, camera, floor, grey, look_at, sky
+from tests.render.statistics import Measurement, Pictures, blocks, check_mean, check_same, strata
+from tests.render.test_integrators_agree import light_by_way_of_metal
 
 SIDE = 16  # pixels, and the length that they show
 
@@ -54,6 +55,33 @@ def test_a_camera_that_moves() -> None:
     columns = np.arange(SIDE) + 0.5 - SIDE / 2
     pictures = Pictures(Measurement(scene.done(), "path", samples=64))
     check_mean(lambda seed: pictures(seed).mean(axis=(0, 2)), covered_until(columns, places), within=0.1, what="camera")
+
+
+@pytest.mark.full
+@pytest.mark.timeout(900)
+def test_splats_on_a_camera_that_moves() -> None:
+    """Half of the light was thrown into the fog by smooth metal: the mean is that of cameras that keep still, each at a
+    moment of its own."""
+    view = camera((3, -3, 2.2), (3, 4, 2.2), 30)
+    places = np.array([[-1, 0, -0.6], [0, 0.5, 0], [0.6, -0.3, 1.4]])
+    film = d.Film(16, 12)
+
+    def at(offsets: Array) -> Array:
+        steps = np.tile(view.to_world, (len(offsets), 1, 1))
+        steps[:, :3, 3] += offsets
+        return steps
+
+    def still(seed: int) -> Array:
+        pictures: list[Array] = []
+        for t in strata(np.random.default_rng(seed), 8):
+            offset = np.array([np.interp(t, [0, 0.5, 1], places[:, axis]) for axis in range(3)])
+            scene = light_by_way_of_metal().seen_by(replace(view, to_world=at(offset[None])[0]), film).done()
+            pictures.append(Pictures(Measurement(scene, "path", samples=4))(8 * seed + len(pictures)))
+        return blocks(np.mean(pictures, axis=0), 4)
+
+    moving = light_by_way_of_metal().seen_by(replace(view, motion=at(places)), film).done()
+    pictures = Pictures(Measurement(moving, "path", samples=32))
+    check_same(lambda seed: blocks(pictures(seed), 4), still, within=0.08, what="a camera that moves")
 
 
 def test_depths_are_of_the_moment() -> None:
