@@ -70,7 +70,8 @@ class GLIMMER_PT_differences(GlimmerPanel, bpy.types.Panel):
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         count = len(differences(context))
-        self.layout.label(text=str(count) if count else "Nothing")
+        if count:
+            self.layout.label(text=str(count))
 
     def draw(self, context: bpy.types.Context) -> None:
         found = list(differences(context))

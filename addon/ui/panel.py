@@ -24,7 +24,7 @@ def wrapped(text: str, context: bpy.types.Context) -> list[str]:
     width = 400.0
     if context.region is not None:
         width = context.region.width / context.preferences.system.ui_scale
-    return textwrap.wrap(text, max(int(width - 60) // 8, 24))
+    return textwrap.wrap(text, max(int(width - 75) // 7, 16))  # beside the tabs and an icon
 
 
 def draw_wrapped(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:

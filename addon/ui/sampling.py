@@ -34,7 +34,14 @@ class GLIMMER_PT_sampling_presets(PresetPanel, bpy.types.Panel):
         column.emboss = "PULLDOWN_MENU"
         column.operator_context = "EXEC_DEFAULT"
         column.operator_enum("render.glimmer_sampling_preset", "kind")
-        PresetPanel.draw(self, context)
+        if bpy.utils.preset_paths(self.preset_subdir):
+            PresetPanel.draw(self, context)
+            return
+        # Blender's panel of presets would say that it misses a folder, which comes with the first of them.
+        manager = context.window_manager
+        row = self.layout.row()
+        row.prop(manager, "preset_name", text="")
+        row.operator(self.preset_add_operator, text="", icon="ADD").name = manager.preset_name
 
 
 class GLIMMER_PT_sampling(_SamplingPanel, bpy.types.Panel):
