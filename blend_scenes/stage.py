@@ -154,10 +154,9 @@ def field(scene: Any, plate: Any, bevel: Any, **parameters: Any) -> Any:
 
 
 def look_through_camera() -> None:
-    """The file opens with its picture."""
+    """The file opens with its picture, but in solid shading: Blender opens none in rendered shading."""
     for window in bpy.context.window_manager.windows:
         for space in (area.spaces.active for area in window.screen.areas if area.type == "VIEW_3D"):
-            space.shading.type = "RENDERED"
             space.region_3d.view_perspective = "CAMERA"
             space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
 
