@@ -45,11 +45,13 @@ class RenderJob:
                 reports.update(reports.collect(report, self.exported), self.layer)
 
             is_final = not engine.is_preview
-            display = Display(engine, render, self.exported.scene, self.layer, watch if is_final else None)
+            display = Display(engine, render, self.exported.scene, self.passes, self.layer, watch if is_final else None)
             display.run()
             report = reports.collect(render.report(), self.exported)
+            metadata = display.metadata()
             reports.note_denoising(report, display.denoised, display.problem)
         if is_final:
+            reports.stamp(engine, metadata)
             reports.publish(engine, report, self.layer)
 
 

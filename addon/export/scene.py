@@ -30,6 +30,7 @@ from ..scene.description import (
     Spheres,
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
+from .groups import with_groups
 from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
 from .instance_attributes import instance_attributes, property_of
 from .light import export_lamp
@@ -123,7 +124,6 @@ def take_notices(
     """Only what an export of these evaluated objects would say, without their meshes. Raises nothing."""
     collector = _Collector(depsgraph, version, notices, False, None)
     collector.reads, collector.images = False, images
-    _note_light_groups(depsgraph, notices)
     for item in items:
         surface, hair = (placed_once(item, depsgraph.view_layer) for _ in range(2))
         hair.strands = True
@@ -132,11 +132,6 @@ def take_notices(
                 collector.add(placed)
             except GlimmerError as error:
                 notices.add("", str(error))
-
-
-def _note_light_groups(depsgraph: bpy.types.Depsgraph, notices: Notices) -> None:
-    if depsgraph.view_layer_eval.lightgroups:
-        notices.add("", "light groups are not supported; their passes are not rendered")
 
 
 @dataclass(frozen=True)
@@ -175,12 +170,11 @@ class _Source:
             collector.shown_attributes = frozenset([ACTIVE_UV])
         for placed in self.placed():
             collector.add(placed)
-        _note_light_groups(self.depsgraph, notices)
         environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
         lights = tuple(collector.lights)
         something_shines = any(shines(item.material) for item in collector.materials)
         warn_of_black_sky(scene.world, environment, lights, medium, notices, something_shines)
-        return SceneDescription(
+        described = SceneDescription(
             film=seen.film,
             camera=camera,
             materials=tuple(collector.materials),
@@ -191,6 +185,7 @@ class _Source:
             medium=medium,
             settings=seen.settings,
         )
+        return with_groups(described, self.depsgraph)
 
 
 def _moving_camera(camera: Camera, item: bpy.types.Object | None, recording: Recording, notices: Notices) -> Camera:

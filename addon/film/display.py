@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from ..native.render import NativeRender, Progress, Tile
 from ..scene.description import SceneDescription
 from ..scene.problems import GlimmerError
-from . import denoise
+from . import cryptomatte, denoise
 from .noise import FIREFLIES, noise_text
-from .passes import Pixels, Reader, hand_over
+from .passes import Pixels, Reader, RenderPass, hand_over
 
 if TYPE_CHECKING:
     import bpy
@@ -68,6 +68,7 @@ class Display:
         engine: bpy.types.RenderEngine,
         render: NativeRender,
         scene: SceneDescription,
+        passes: tuple[RenderPass, ...],
         layer: str,
         watch: Callable[[dict[str, Any]], None] | None = None,
     ) -> None:
@@ -75,10 +76,16 @@ class Display:
         self._engine = engine
         self._render = render
         self._settings = scene.settings
+        self._passes = passes
         self._denoises = scene.settings.denoise
         self.denoised = False
         self.problem = ""  # why the picture could not be denoised
         self._layer = layer
+        self._names = cryptomatte.Names(
+            [matte.name for matte in scene.mattes],
+            self._material_names(scene),
+            [matte.asset for matte in scene.mattes],
+        )
         self._watch = watch
         x0, y0, x1, y1 = scene.film.window
         self._whole = Tile(0, 0, x1 - x0, y1 - y0)
@@ -102,6 +109,22 @@ class Display:
             return None
         self.denoised = True
         return pixels
+
+    def _material_names(self, scene: SceneDescription) -> list[str]:
+        numbers = self._render.material_numbers
+        names = [""] * (max(numbers, default=-1) + 1)
+        for number, material in zip(numbers, scene.materials, strict=True):
+            names[number] = material.name
+        return names
+
+    def metadata(self) -> list[tuple[str, str]]:
+        """(name, value) of what the file has to say about the passes."""
+        found: list[tuple[str, str]] = []
+        for kind in cryptomatte.KINDS:
+            if any(item.matte == kind for item in self._passes):
+                names = sorted({name for name in self._names.of(kind) if name})
+                found += cryptomatte.metadata(self._layer, kind, names)
+        return found
 
     def run(self) -> None:
         """Until the render has ended or the user has cancelled it; what is there by then is kept."""
@@ -163,7 +186,8 @@ class Display:
             self._has_alpha,
             self._material_indices,
             self._to_camera,
+            self._names,
             self._denoised(tile) if final and self._denoises else None,
         )
         asked = [(item.name, item.channels) for item in layer_passes]
-        layer_passes.foreach_set("rect", hand_over(asked, (tile.height, tile.width), reader, final))
+        layer_passes.foreach_set("rect", hand_over(asked, self._passes, (tile.height, tile.width), reader, final))

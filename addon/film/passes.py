@@ -3,10 +3,12 @@
 Blender, and what is handed over."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+
+from . import cryptomatte
 
 Pixels = NDArray[np.float32]
 
@@ -24,6 +26,8 @@ class RenderPass:
     builtin: str = ""  # Blender's own switch on the view layer, if it has one
     cycles: str = ""  # Cycles' own switch on its settings of the view layer, which are not there without it
     help: str = ""  # for the switch that we add where there is none
+    matte: str = ""  # of what kind of name it is a Cryptomatte, and the how manieth of its passes
+    layer: int = 0
     color: str = ""  # the engine's pass that Blender's light is divided by: it shows what falls on a white surface
 
     @property
@@ -103,6 +107,9 @@ OPTIONAL: tuple[RenderPass, ...] = (
     RenderPass("depth", "Denoising Depth", "Z", "VALUE", cycles="denoising_store_passes"),
 )
 
+# The engine keeps so many.
+MOST_LEVELS, MOST_LIGHT_GROUPS = 16, 16
+
 # Blender's and Cycles' switches of passes that there are none of, and what they are called.
 MISSING = {
     "use_pass_vector": "Vector",
@@ -111,9 +118,6 @@ MISSING = {
     "use_pass_subsurface_direct": "Subsurface Direct",
     "use_pass_subsurface_indirect": "Subsurface Indirect",
     "use_pass_subsurface_color": "Subsurface Color",
-    "use_pass_cryptomatte_object": "Cryptomatte Object",
-    "use_pass_cryptomatte_material": "Cryptomatte Material",
-    "use_pass_cryptomatte_asset": "Cryptomatte Asset",
 }
 MISSING_OF_CYCLES = {
     "use_pass_shadow_catcher": "Shadow Catcher",
@@ -132,7 +136,26 @@ DENOISED_BY = ("albedo", "normal")  # what the engine is asked for besides the p
 def enabled(view_layer: object, is_denoised: bool = False) -> tuple[RenderPass, ...]:
     """The passes that a view layer asks for, combined first. is_denoised: the picture as it was rendered is one."""
     switched = (item for item in OPTIONAL if item.is_on(view_layer) or (is_denoised and item is NOISY))
-    return (COMBINED, *switched)
+    return (COMBINED, *switched, *_mattes(view_layer), *_light_groups(view_layer))
+
+
+def _mattes(view_layer: object) -> Iterable[RenderPass]:
+    levels = min(getattr(view_layer, "pass_cryptomatte_depth", 0), MOST_LEVELS)
+    for kind in cryptomatte.KINDS:
+        if getattr(view_layer, f"use_pass_cryptomatte_{kind}", False):
+            engine_name = "material_matte" if kind == "material" else "object_matte"
+            for i in range(-(-levels // cryptomatte.RANKS_A_LAYER)):
+                yield RenderPass(engine_name, f"Crypto{kind.capitalize()}{i:02d}", "rgba", "COLOR", matte=kind, layer=i)
+
+
+def light_groups(view_layer: object) -> list[str]:
+    """Their names, in the order of the engine's numbers, which count from 1."""
+    return [group.name for group in getattr(view_layer, "lightgroups", ())][:MOST_LIGHT_GROUPS]
+
+
+def _light_groups(view_layer: object) -> Iterable[RenderPass]:
+    for i, name in enumerate(light_groups(view_layer)):
+        yield RenderPass(f"light_group_{i + 1}", f"Combined_{name}", "RGB", "COLOR")
 
 
 def missing(view_layer: object) -> list[str]:
@@ -140,6 +163,8 @@ def missing(view_layer: object) -> list[str]:
     cycles = getattr(view_layer, "cycles", None)
     names = [name for switch, name in MISSING.items() if getattr(view_layer, switch, False)]
     names += [name for switch, name in MISSING_OF_CYCLES.items() if getattr(cycles, switch, False)]
+    groups = [group.name for group in getattr(view_layer, "lightgroups", ())]
+    names += [f"light group '{name}' (of {MOST_LIGHT_GROUPS} at most)" for name in groups[MOST_LIGHT_GROUPS:]]
     return names + [f"the shader AOV '{aov.name}'" for aov in getattr(view_layer, "aovs", ())]
 
 
@@ -178,7 +203,9 @@ class Reader:
     has_alpha: bool = False
     material_indices: NDArray[np.float32] | None = None  # Blender's; the engine's numbers count from 1, 0 is none
     to_camera: NDArray[np.floating] | None = None  # (3, 3), of directions in the world
+    names: cryptomatte.Names = field(default_factory=cryptomatte.Names)
     denoised: Pixels | None = None  # R G B in place of the engine's
+    ranks: dict[str, cryptomatte.Ranks] = field(default_factory=dict)  # of each kind of name, once it was asked for
 
     def shown(self) -> Pixels:
         """The picture, (height, width, 4)."""
@@ -193,6 +220,8 @@ class Reader:
         """(height, width, channels), top row first."""
         if item.engine_name == COMBINED.engine_name:
             return self.combined()
+        if item.matte:
+            return self._matte(item)
         values = self.read(item.engine_name)
         if item.color:
             return without_color(values, self.read(item.color))
@@ -202,16 +231,25 @@ class Reader:
             return (values @ self.to_camera.T).astype(np.float32)
         return values
 
+    def _matte(self, item: RenderPass) -> Pixels:
+        if item.matte not in self.ranks:
+            self.ranks[item.matte] = cryptomatte.ranks(self.read(item.engine_name), self.names.of(item.matte))
+        return cryptomatte.layer(self.ranks[item.matte], item.layer)
+
 
 def hand_over(
-    layer_passes: Iterable[tuple[str, int]], shape: tuple[int, int], reader: Reader, is_final: bool
+    layer_passes: Iterable[tuple[str, int]],
+    asked: Iterable[RenderPass],
+    shape: tuple[int, int],
+    reader: Reader,
+    is_final: bool,
 ) -> Pixels:
     """One flat array for all passes of a Blender render layer, in their order.
 
-    layer_passes: Blender's names and channel counts. shape: (height, width). Before the end, and for passes that are
-    not ours, zeros stand in for all but the picture.
+    layer_passes: Blender's names and channel counts. asked: what the engine was asked for. shape: (height, width).
+    Before the end, and for passes that are not ours, zeros stand in for all but the picture.
     """
-    by_name = {name: item for item in OPTIONAL for name in (item.short_name, item.long_name) if name}
+    by_name = {name: item for item in asked for name in (item.short_name, item.long_name) if name}
     parts: list[Pixels] = []
     for name, count in layer_passes:
         if name == COMBINED.short_name:

@@ -168,6 +168,7 @@ class NativeScene:
             desc.instance_count, desc.instance_format, desc.instances = len(matrices), kind, _pointer(matrices)
         desc.color = item.color
         desc.visible, desc.holdout = int(item.rays), int(item.is_holdout)
+        desc.matte, desc.light_group = item.matte, item.light_group
         randoms = np.ascontiguousarray(item.random, np.float32).reshape(-1)
         desc.random = float(randoms[0])
         if matrices is not None and len(randoms) == len(matrices):
@@ -193,6 +194,7 @@ class NativeScene:
         desc.material = materials[spheres.material]
         desc.object_index = spheres.object_index
         desc.visible, desc.holdout = int(spheres.rays), int(spheres.is_holdout)
+        desc.matte, desc.light_group = spheres.matte, spheres.light_group
         interior = self._interior(spheres.interior)
         desc.interior = None if interior is None else ctypes.addressof(interior)
         self.library.call("glimmer_scene_add_spheres", self.handle, byref(desc))
@@ -213,10 +215,12 @@ class NativeScene:
         desc.visible, desc.shadows = int(lamp.flags.rays), int(lamp.flags.shadows)
         if lamp.flags.max_bounces is not None:
             desc.max_bounces = lamp.flags.max_bounces
+        desc.light_group = lamp.flags.light_group
         self.library.call("glimmer_scene_add_light", self.handle, byref(desc))
 
     def _set_environment(self, environment: d.Environment) -> None:
         self.library.call("glimmer_scene_set_environment_visible", self.handle, int(environment.rays))
+        self.library.call("glimmer_scene_set_environment_light_group", self.handle, environment.light_group)
         if environment.program is not None:
             programs = ProgramAdder(self.library, self.handle)
             try:

@@ -2,6 +2,7 @@
 """The structs and enumerations of engine/include/glimmer.h, field for field in its order."""
 
 import ctypes
+from collections.abc import Iterable
 from ctypes import (
     c_char,
     c_char_p,
@@ -206,6 +207,8 @@ class ObjectDesc(ctypes.Structure):
         ("attribute_count", c_size_t),
         ("attributes", c_void_p),
         ("interior", c_void_p),
+        ("matte", c_uint32),
+        ("light_group", c_uint32),
     ]
 
 
@@ -222,6 +225,8 @@ class SpheresDesc(ctypes.Structure):
         ("visible", c_uint32),
         ("holdout", c_int),
         ("interior", c_void_p),
+        ("matte", c_uint32),
+        ("light_group", c_uint32),
     ]
 
 
@@ -245,6 +250,7 @@ class LightDesc(ctypes.Structure):
         ("disk", c_int),
         ("times_cosine", c_int),
         ("spread", c_double),
+        ("light_group", c_uint32),
     ]
 
 
@@ -282,6 +288,14 @@ class FilmDesc(ctypes.Structure):
     ]
 
 
+def pass_bits(numbers: Iterable[int]) -> tuple[int, int]:
+    """RenderDesc's passes and passes_above."""
+    bits = 0
+    for number in numbers:
+        bits |= 1 << number
+    return bits & 0xFFFFFFFF, bits >> 32
+
+
 class RenderDesc(ctypes.Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -297,6 +311,7 @@ class RenderDesc(ctypes.Structure):
         ("passes", c_uint32),
         ("adaptive", c_int),
         ("full_kernel", c_int),
+        ("passes_above", c_uint32),
     ]
 
 

@@ -324,6 +324,8 @@ class Object:
     is_holdout: bool = False  # black where the camera sees it
     attributes: tuple[Attribute, ...] = ()  # of instances: a row each
     interior: Medium | None = None  # what the mesh is filled with, whatever its materials
+    matte: int = 0  # 1 + its place in SceneDescription.mattes; 0: none
+    light_group: int = 0  # of what shines of it, from 1 on; 0: none
 
 
 @dataclass(frozen=True, eq=False)
@@ -336,6 +338,8 @@ class Spheres:
     rays: Rays = EVERY_RAY
     is_holdout: bool = False
     interior: Medium | None = None
+    matte: int = 0
+    light_group: int = 0
 
 
 # ---- Lights -------------------------------------------------------------------------------------------------------
@@ -348,6 +352,7 @@ class LampFlags:
     rays: Rays = LAMP_RAYS  # that meet it; with them the lobes that it lights
     shadows: bool = True
     max_bounces: int | None = None  # None: no limit
+    light_group: int = 0
 
 
 @dataclass(frozen=True)
@@ -414,6 +419,7 @@ class Environment:
     program: Program | None = None  # its first output is the radiance; but for the sun the rest is then not looked at
     rays: Rays = EVERY_RAY  # that see it
     sun: SkySun | None = None  # of the program
+    light_group: int = 0
 
 
 # ---- The whole ----------------------------------------------------------------------------------------------------
@@ -435,6 +441,14 @@ class RenderSettings:
     denoise: bool = False  # by the add-on, in the end
 
 
+@dataclass(frozen=True)
+class Matte:
+    """What Cryptomatte knows an object by."""
+
+    name: str
+    asset: str  # the name of what it belongs to
+
+
 @dataclass(frozen=True, eq=False)
 class SceneDescription:
     film: Film
@@ -446,6 +460,7 @@ class SceneDescription:
     environment: Environment = field(default_factory=Environment)
     medium: Medium | None = None
     settings: RenderSettings = field(default_factory=RenderSettings)
+    mattes: tuple[Matte, ...] = ()
 
     @property
     def has_alpha(self) -> bool:

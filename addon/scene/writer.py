@@ -188,6 +188,8 @@ class _Writer:
 
     def _environment(self, environment: d.Environment) -> Json:
         visible = _visible(environment.rays, d.EVERY_RAY)
+        if environment.light_group:
+            visible["light_group"] = environment.light_group
         if environment.program is not None:
             result: Json = {"radiance": {"program": self._program("environment", environment.program), "output": 0}}
             if environment.sun is not None:
@@ -212,7 +214,12 @@ def _visible(rays: d.Rays, usual: d.Rays) -> Json:
 
 
 def _visibility(item: d.Object | d.Spheres) -> Json:
-    return {**_visible(item.rays, d.EVERY_RAY), **({"holdout": True} if item.is_holdout else {})}
+    numbers = {"matte": item.matte, "light_group": item.light_group}
+    return {
+        **_visible(item.rays, d.EVERY_RAY),
+        **({"holdout": True} if item.is_holdout else {}),
+        **{key: number for key, number in numbers.items() if number},
+    }
 
 
 def _unique(names: list[str]) -> list[str]:
@@ -297,6 +304,8 @@ def _lamp(lamp: d.Lamp) -> Json:
         result["shadows"] = False
     if flags.max_bounces is not None:
         result["max_bounces"] = flags.max_bounces
+    if flags.light_group:
+        result["light_group"] = flags.light_group
     return result
 
 

@@ -28,6 +28,20 @@ class GLIMMER_PT_object(GlimmerPanel, bpy.types.Panel):
             self.layout.label(text="Rendered as the mesh that it is", icon="BLANK1")
 
 
+class GLIMMER_PT_object_light_group(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Light Group"
+    bl_context = "object"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.object is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        self.layout.prop_search(context.object, "lightgroup", context.view_layer, "lightgroups", text="Light Group")
+
+
 def why_no_sphere(context: bpy.types.Context) -> str:
     """As an export would find it; empty where it is one, or too large to look at."""
     item = context.object.evaluated_get(context.evaluated_depsgraph_get())
@@ -44,7 +58,9 @@ def why_no_sphere(context: bpy.types.Context) -> str:
 
 def register() -> None:
     bpy.utils.register_class(GLIMMER_PT_object)
+    bpy.utils.register_class(GLIMMER_PT_object_light_group)
 
 
 def unregister() -> None:
+    bpy.utils.unregister_class(GLIMMER_PT_object_light_group)
     bpy.utils.unregister_class(GLIMMER_PT_object)

@@ -2,8 +2,9 @@
 
 import bpy
 
+from ..film import cryptomatte
 from ..film.passes import LONG_NAMES, OPTIONAL
-from .panel import GlimmerPanel
+from .panel import GlimmerPanel, draw_wrapped
 
 
 class GLIMMER_PT_passes(GlimmerPanel, bpy.types.Panel):
@@ -24,6 +25,40 @@ class GLIMMER_PT_passes(GlimmerPanel, bpy.types.Panel):
             column.prop(owner, item.switch, text=text)
 
 
+class GLIMMER_PT_cryptomatte(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Cryptomatte"
+    bl_context = "view_layer"
+    bl_parent_id = "GLIMMER_PT_passes"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, view_layer = self.layout, context.view_layer
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column(heading="Include")
+        for kind in cryptomatte.KINDS:
+            column.prop(view_layer, f"use_pass_cryptomatte_{kind}", text=kind.capitalize())
+        layout.prop(view_layer, "pass_cryptomatte_depth", text="Levels")
+
+
+class GLIMMER_PT_light_groups(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Light Groups"
+    bl_context = "view_layer"
+    bl_parent_id = "GLIMMER_PT_passes"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        view_layer, row = context.view_layer, self.layout.row()
+        row.template_list(
+            "UI_UL_list", "lightgroups", view_layer, "lightgroups", view_layer, "active_lightgroup_index", rows=3
+        )
+        column = row.column(align=True)
+        column.operator("scene.view_layer_add_lightgroup", icon="ADD", text="")
+        column.operator("scene.view_layer_remove_lightgroup", icon="REMOVE", text="")
+        if view_layer.lightgroups:
+            draw_wrapped(
+                self.layout, context, "Light in haze is followed path by path then, which takes longer", "INFO"
+            )
+
+
 class GLIMMER_PT_view_layer_override(GlimmerPanel, bpy.types.Panel):
     bl_label = "Override"
     bl_context = "view_layer"
@@ -33,9 +68,13 @@ class GLIMMER_PT_view_layer_override(GlimmerPanel, bpy.types.Panel):
         self.layout.use_property_split = True
         self.layout.prop(context.view_layer, "material_override", text="Material")
         self.layout.prop(context.view_layer, "use_motion_blur", text="Motion Blur")
+        self.layout.prop(context.view_layer, "samples")
+        cycles = getattr(context.scene, "cycles", None)
+        if hasattr(cycles, "use_layer_samples"):
+            self.layout.prop(cycles, "use_layer_samples")
 
 
-_CLASSES = (GLIMMER_PT_passes, GLIMMER_PT_view_layer_override)
+_CLASSES = (GLIMMER_PT_passes, GLIMMER_PT_cryptomatte, GLIMMER_PT_light_groups, GLIMMER_PT_view_layer_override)
 
 
 def register() -> None:

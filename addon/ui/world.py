@@ -64,12 +64,27 @@ class GLIMMER_PT_world_volume_nodes(_WorldPanel, bpy.types.Panel):
         draw_node_input(self.layout, context.world.node_tree, "Volume")
 
 
+class GLIMMER_PT_world_light_group(_WorldPanel, bpy.types.Panel):
+    bl_label = "Light Group"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        self.layout.prop_search(context.world, "lightgroup", context.view_layer, "lightgroups", text="Light Group")
+
+
 def _has_volume(world: bpy.types.World) -> bool:
     output = world.node_tree.get_output_node("CYCLES") if world.use_nodes and world.node_tree is not None else None
     return output is not None and output.inputs["Volume"].is_linked
 
 
-_CLASSES = (GLIMMER_PT_world_preview, GLIMMER_PT_world_surface, GLIMMER_PT_world_volume, GLIMMER_PT_world_volume_nodes)
+_CLASSES = (
+    GLIMMER_PT_world_preview,
+    GLIMMER_PT_world_surface,
+    GLIMMER_PT_world_volume,
+    GLIMMER_PT_world_volume_nodes,
+    GLIMMER_PT_world_light_group,
+)
 
 
 def register() -> None:

@@ -41,6 +41,7 @@ float join(glimmer_pass_rule rule, const std::vector<float> &values, const std::
                 weight_sum += weights[i];
             }
             break;
+        case GLIMMER_RULE_MATTE:
         case GLIMMER_RULE_FIRST:
             return values[0];
         case GLIMMER_RULE_COUNT:

@@ -36,8 +36,8 @@ double positive_option(const std::string &option, const std::string &text) {
     return value;
 }
 
-uint32_t pass_bits(const std::string &text) {
-    uint32_t bits = 0;
+uint64_t pass_bits(const std::string &text) {
+    uint64_t bits = 0;
     for (size_t at = 0; at <= text.size();) {
         const size_t end = std::min(text.find(',', at), text.size());
         const auto names = pass_names();
@@ -45,7 +45,7 @@ uint32_t pass_bits(const std::string &text) {
         if (found == names.end())
             throw InputError("--aov: " + in_quotes(text.substr(at, end - at)) +
                              " is not an AOV; see glimmer --list-aovs");
-        bits |= 1u << (found - names.begin());
+        bits |= 1ull << (found - names.begin());
         at = end + 1;
     }
     return bits;

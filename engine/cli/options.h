@@ -19,7 +19,7 @@ struct RenderOptions {
     std::string integrator;  ///< empty: the default
     uint64_t seed = 0;
     uint32_t threads = 0, tile = 0; ///< 0: the engine's choice
-    uint32_t passes = 0;            ///< bit set of (1 << glimmer_pass)
+    uint64_t passes = 0;            ///< bit set of (1 << glimmer_pass)
     std::optional<std::filesystem::path> checkpoint, report, curve;
     double checkpoint_seconds = 30; ///< between two saves to the checkpoint
     bool adaptive = false;          ///< sampling

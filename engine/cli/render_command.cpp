@@ -42,7 +42,8 @@ RenderHandle create_render(glimmer_scene *scene, const DepthLimits &limits, cons
     desc.full_kernel = options.full_kernel;
     desc.max_depth = limits.max_depth;
     desc.max_scatter = limits.max_scatter;
-    desc.passes = options.passes | 1u << GLIMMER_PASS_COMBINED | 1u << GLIMMER_PASS_STDERR;
+    desc.passes = uint32_t(options.passes) | 1u << GLIMMER_PASS_COMBINED | 1u << GLIMMER_PASS_STDERR;
+    desc.passes_above = uint32_t(options.passes >> 32);
     glimmer_render *render = nullptr;
     check(glimmer_render_create(scene, &desc, &render), options.scene.string());
     return RenderHandle(render);

@@ -297,6 +297,8 @@ typedef struct glimmer_object_desc {
     const struct glimmer_attribute *attributes; /* per instance: what programs find in place of the mesh's own */
     const glimmer_medium_desc *interior;        /* what the mesh, which should be closed, is filled with, whatever its
                                                    materials; null for nothing. Where several are, they add up. */
+    uint32_t matte;       /* what the object matte pass shows, up to 2^24; 0, the default, is shown as nothing */
+    uint32_t light_group; /* of what shines of it, 1 to GLIMMER_MAX_LIGHT_GROUPS; 0, the default: none */
 } glimmer_object_desc;
 
 GLIMMER_API void glimmer_object_init(glimmer_object_desc *desc);
@@ -314,6 +316,7 @@ typedef struct glimmer_spheres_desc {
     uint32_t visible; /* as of objects */
     int holdout;
     const glimmer_medium_desc *interior; /* as of an object */
+    uint32_t matte, light_group;         /* as of an object */
 } glimmer_spheres_desc;
 
 GLIMMER_API void glimmer_spheres_init(glimmer_spheres_desc *desc);
@@ -352,6 +355,7 @@ typedef struct glimmer_light_desc {
     int times_cosine; /* spot: not 0: it is darker by the cosine to its axis too */
     double spread;    /* area: full angle about its normal to which it shines, dimmed as by slats, with the same power;
                          above    0 to 180, the default */
+    uint32_t light_group; /* as of an object */
 } glimmer_light_desc;
 
 GLIMMER_API void glimmer_light_init(glimmer_light_desc *desc);
@@ -363,6 +367,9 @@ GLIMMER_API glimmer_result glimmer_scene_set_environment(glimmer_scene *scene, c
 
 /* Which rays see the environment, a set of glimmer_ray; all, if this is never called. */
 GLIMMER_API glimmer_result glimmer_scene_set_environment_visible(glimmer_scene *scene, uint32_t visible);
+
+/* As of an object. */
+GLIMMER_API glimmer_result glimmer_scene_set_environment_light_group(glimmer_scene *scene, uint32_t light_group);
 
 /* Homogeneous, fills all space outside glass. sigma >= 0 per channel; g: Henyey-Greenstein, -1 < g < 1. */
 GLIMMER_API glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3],
@@ -472,8 +479,17 @@ typedef enum glimmer_pass {
     GLIMMER_PASS_TRANSMISSION_COLOR = 26,
     GLIMMER_PASS_VOLUME_DIRECT = 27,
     GLIMMER_PASS_VOLUME_INDIRECT = 28,
-    GLIMMER_PASS_COUNT = 29
+    /* Pairs of a number and the part of the pixel that it takes up, GLIMMER_MATTE_RANKS of them, the largest part
+     * first, 0 0 where there are no more: `matte` of the objects that the camera sees, and 1 + their materials. */
+    GLIMMER_PASS_OBJECT_MATTE = 29,
+    GLIMMER_PASS_MATERIAL_MATTE = 30,
+    /* RGB: the part of the combined picture that is light from the lights of group 1, 2, ... GLIMMER_MAX_LIGHT_GROUPS.
+     * With any of them, light in media comes by paths alone: slower, and the same mean. */
+    GLIMMER_PASS_LIGHT_GROUP = 31,
+    GLIMMER_PASS_COUNT = 47
 } glimmer_pass;
+#define GLIMMER_MATTE_RANKS 16
+#define GLIMMER_MAX_LIGHT_GROUPS 16
 
 /* How the samples of a pixel become its value of a pass, and how pictures of several seeds are merged. */
 typedef enum glimmer_pass_rule {
@@ -481,13 +497,14 @@ typedef enum glimmer_pass_rule {
     GLIMMER_RULE_STANDARD_ERROR = 1, /* of the combined mean; merged as the errors of independent means */
     GLIMMER_RULE_MEAN_OF_HITS = 2,   /* the mean of the samples that hit a surface; GLIMMER_NO_DEPTH where none did */
     GLIMMER_RULE_FIRST = 3,          /* the first sample's: an index is not a quantity */
-    GLIMMER_RULE_COUNT = 4           /* merged by adding */
+    GLIMMER_RULE_COUNT = 4,          /* merged by adding */
+    GLIMMER_RULE_MATTE = 5           /* of pairs of a number and its part; merged by taking the first picture's */
 } glimmer_pass_rule;
 #define GLIMMER_NO_DEPTH 1e10f
 
 typedef struct glimmer_pass_info_t {
     const char *name;     /* "combined", "stderr", "albedo", ... as in --aov */
-    const char *channels; /* "RGB", "XYZ", "UVA", "Z", "X" or "A" */
+    const char *channels; /* "RGB", "XYZ", "UVA", "Z", "X", "A", or one letter or digit each of a matte's */
     const char *help;     /* one line */
     glimmer_pass_rule rule;
 } glimmer_pass_info_t;
@@ -514,12 +531,13 @@ typedef struct glimmer_render_desc {
     uint32_t tile_size;  /* pixels; 0: 64. Changes no pixel */
     int64_t max_depth;   /* scattering vertices of a path; -1: no limit (a limit is a bias, and named as one) */
     int64_t max_scatter; /* the same for volume vertices alone */
-    uint32_t passes;     /* bit set of (1 << glimmer_pass); combined is always there */
+    uint32_t passes;     /* bit set of (1 << glimmer_pass); combined is always there. 32 and up: passes_above */
     int adaptive;    /* not 0: from 16 samples on, pixels that need it take more samples and others fewer, 1/4 to 4 a
                         pass; `samples`, here and in progress and tile, is then the mean over the picture. Unbiased;
                         0 by default */
     int full_kernel; /* not 0: the code that can render any scene, in place of what was compiled for ones like this:
                         slower, the same bits; for tests. 0 by default */
+    uint32_t passes_above; /* bit set of (1 << (glimmer_pass - 32)) */
 } glimmer_render_desc;
 
 GLIMMER_API void glimmer_render_init(glimmer_render_desc *desc);

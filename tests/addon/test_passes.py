@@ -10,6 +10,7 @@ import numpy as np
 from addon.film.passes import (
     ALPHA,
     COMBINED,
+    MOST_LIGHT_GROUPS,
     OPTIONAL,
     Pixels,
     Reader,
@@ -28,7 +29,14 @@ def test_the_engine_has_every_pass_of_the_table(library_dir: Path) -> None:
     known = Library(library_dir / "libglimmer.so").passes()
     for item in (COMBINED, *OPTIONAL):
         assert len(known[item.engine_name][1]) == min(len(item.channels), 3)
-    assert set(known) == {ALPHA, *engine_names((COMBINED, *OPTIONAL))}
+    assert set(known) == {ALPHA, *engine_names((COMBINED, *OPTIONAL, *enabled(_full_layer())))}
+
+
+def _full_layer() -> Any:
+    layer = _layer(use_pass_cryptomatte_object=True, use_pass_cryptomatte_material=True)
+    layer.pass_cryptomatte_depth = 6
+    layer.lightgroups = [SimpleNamespace(name=f"group {i}") for i in range(MOST_LIGHT_GROUPS)]
+    return layer
 
 
 def _layer(**on: bool) -> Any:
@@ -105,10 +113,11 @@ def test_passes_follow_the_order_of_blenders_layer() -> None:
         value, channels = values[name]
         return np.full((1, 2, channels), value, np.float32)
 
-    asked = [("Depth", 1), ("Unknown", 1), ("Combined", 4)]
+    layers = [("Depth", 1), ("Unknown", 1), ("Combined", 4)]
+    asked = enabled(_layer(use_pass_z=True))
     np.testing.assert_array_equal(
-        hand_over(asked, (1, 2), Reader(read, has_alpha=True), True), [7, 7, 0, 0, 3, 3, 3, 0.5, 3, 3, 3, 0.5]
+        hand_over(layers, asked, (1, 2), Reader(read, has_alpha=True), True), [7, 7, 0, 0, 3, 3, 3, 0.5, 3, 3, 3, 0.5]
     )
     # While rendering only the picture is read; the rest waits as zeros of the right size.
-    early = hand_over(asked, (1, 2), Reader(read), False)
+    early = hand_over(layers, asked, (1, 2), Reader(read), False)
     np.testing.assert_array_equal(early, [0, 0, 0, 0, 3, 3, 3, 1, 3, 3, 3, 1])

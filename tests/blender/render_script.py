@@ -132,8 +132,38 @@ def denoised() -> None:
     scene.glimmer.samples = 8
 
 
-def compositor(scene: Any) -> None:
-    """The picture is the albedo pass, by way of the compositor."""
+def groups_and_mattes() -> None:
+    """Light groups, and Cryptomatte beside Cycles' and through Blender's own node."""
+    scene = new_scene()
+    inside.use_format("OPEN_EXR_MULTILAYER")
+    layer = scene.view_layers[0]
+    for name in ("key", "moon", "sky"):
+        layer.lightgroups.add().name = name
+    bpy.data.objects["POINT"].lightgroup, scene.world.lightgroup = "key", "sky"
+    bpy.data.objects["Moon"].lightgroup = "moon"
+    bpy.data.objects["Moon"].parent = bpy.data.objects["Ball"]
+    layer.use_pass_cryptomatte_object = layer.use_pass_cryptomatte_asset = layer.use_pass_cryptomatte_material = True
+    layer.pass_cryptomatte_depth = 4
+    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.pixel_filter_type = 8, False, "BOX"
+    scene.glimmer.filter = "BOX"
+    for engine in ("GLIMMER", "CYCLES"):
+        scene.render.engine = engine
+        inside.render(OUT / f"groups_{engine.lower()}.exr")
+    scene.render.engine = "GLIMMER"
+    layer.use_pass_cryptomatte_asset = layer.use_pass_cryptomatte_material = False
+    tree, output = compositor_tree(scene)
+    node = tree.nodes.new("CompositorNodeCryptomatteV2")
+    node.source, node.scene, node.layer_name, node.matte_id = "RENDER", scene, "ViewLayer.CryptoObject", "Ball"
+    tree.links.new(node.outputs["Matte"], output.inputs[0])
+    shown = tree.nodes.new("CompositorNodeRLayers")  # 3.4 renders nothing without it
+    tree.links.new(shown.outputs["Image"], node.inputs["Image"])
+    inside.use_format("OPEN_EXR")
+    inside.render(OUT / "matte.exr")
+    leave_compositor(scene)
+
+
+def compositor_tree(scene: Any) -> tuple[Any, Any]:
+    """Without nodes but the one of the output."""
     if hasattr(scene, "compositing_node_group"):  # 5.0
         tree = scene.compositing_node_group = bpy.data.node_groups.new("Compositor", "CompositorNodeTree")
         tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
@@ -143,16 +173,26 @@ def compositor(scene: Any) -> None:
         tree = scene.node_tree
         tree.nodes.clear()
         output = tree.nodes.new("CompositorNodeComposite")
+    return tree, output
+
+
+def leave_compositor(scene: Any) -> None:
+    if hasattr(scene, "compositing_node_group"):
+        scene.compositing_node_group = None
+    else:
+        scene.use_nodes = False
+
+
+def compositor(scene: Any) -> None:
+    """The picture is the albedo pass, by way of the compositor."""
+    tree, output = compositor_tree(scene)
     layers = tree.nodes.new("CompositorNodeRLayers")
     facts["names"] = [item.name(bpy.app.version) for item in passes.OPTIONAL]
     facts["sockets"] = [socket.name for socket in layers.outputs if socket.enabled]
     tree.links.new(layers.outputs["Albedo"], output.inputs[0])
     inside.use_format("OPEN_EXR")
     inside.render(OUT / "composited.exr")
-    if hasattr(scene, "compositing_node_group"):
-        scene.compositing_node_group = None
-    else:
-        scene.use_nodes = False
+    leave_compositor(scene)
 
 
 def animation() -> None:
@@ -239,4 +279,5 @@ transparent()
 denoised()
 animation()
 hexagon_field()
+groups_and_mattes()
 (OUT / "facts.json").write_text(json.dumps(facts))

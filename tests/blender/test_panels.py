@@ -34,7 +34,6 @@ NEEDS_NO_PANEL = {
     "Scene.frame_current": "in the timeline",
     "Scene.frame_subframe": "in the timeline",
     "Scene.use_nodes": "the compositor's",
-    "ViewLayer.samples": "the scene's is meant",
     "WorldMistSettings.height": "another thing of that name is meant",
     "AreaLight.shadow_soft_size": "those of points and spots are meant",
     "SunLight.shadow_soft_size": "those of points and spots are meant",

@@ -150,6 +150,7 @@ def test_alpha_is_that_of_cycles(out: Path, name: str) -> None:
     assert off.mean() < 0.01 and (off > 0.01).mean() < edges
     assert (ours[..., 3] == 0.0).any() and (ours[..., 3] == 1.0).any()
     empty = ours[..., 3] == 0.0
+    assert not ours[empty].any()
     # The hole is empty on any film, the sky on a transparent one.
     assert 0.1 < empty.mean() < 0.3 if name == "opaque" else empty.mean() > 0.5
     np.testing.assert_allclose(ours[..., :3].mean(), cycles[..., :3].mean(), rtol=0.05)
@@ -180,6 +181,44 @@ def test_a_denoised_picture_keeps_the_noisy_one(out: Path, host: Host, facts: di
 
 def test_a_view_layer_may_have_samples_of_its_own(facts: dict[str, Any]) -> None:
     assert facts["layer_samples"] == {"ViewLayer": 8, "Without Ball": 3}
+
+
+def test_light_groups_add_up(out: Path) -> None:
+    found, cycles = (channels(out / f"groups_{engine}.exr") for engine in ("glimmer", "cycles"))
+    groups = [layer_pass(found, "ViewLayer", f"Combined_{name}", "RGB") for name in ("key", "moon", "sky")]
+    combined = layer_pass(found, "ViewLayer", "Combined", "RGB")
+    np.testing.assert_allclose(sum(groups), combined, rtol=2e-5, atol=2e-6)
+    for name, group in zip(("key", "moon", "sky"), groups, strict=True):
+        theirs = layer_pass(cycles, "ViewLayer", f"Combined_{name}", "RGB")
+        np.testing.assert_allclose(group.mean(), theirs.mean(), rtol=0.1)
+
+
+def test_cryptomatte_names_what_cycles_names(out: Path) -> None:
+    found, cycles = (channels(out / f"groups_{engine}.exr") for engine in ("glimmer", "cycles"))
+    for kind in ("Object", "Material", "Asset"):
+        for name in (f"Crypto{kind}00", f"Crypto{kind}01"):
+            ours, theirs = (layer_pass(item, "ViewLayer", name, "rgba") for item in (found, cycles))
+            for rank in (0, 2):
+                shown = {value for value in np.unique(ours[..., rank]) if (ours[..., rank] == value).sum() > 20}
+                expected = {value for value in np.unique(theirs[..., rank]) if (theirs[..., rank] == value).sum() > 20}
+                assert shown == expected, name
+                np.testing.assert_allclose(ours[..., rank + 1].mean(), theirs[..., rank + 1].mean(), atol=0.02)
+        attributes = metadata(out / "groups_glimmer.exr"), metadata(out / "groups_cycles.exr")
+        keys = [{key for key in item if key.startswith("cryptomatte/")} for item in attributes]
+        assert keys[0] == keys[1] and len(keys[0]) == 12
+
+
+def metadata(path: Path) -> dict[str, Any]:
+    image = OpenImageIO.ImageInput.open(str(path))
+    assert image is not None
+    found = {attribute.name: attribute.value for attribute in image.spec().extra_attribs}
+    image.close()
+    return found
+
+
+def test_blenders_own_node_reads_the_mattes(out: Path) -> None:
+    matte = channels(out / "matte.exr")["R"]
+    assert 0.05 < matte.mean() < 0.3 and matte.min() == 0.0 and matte.max() > 0.99
 
 
 def test_passes_reach_the_compositor(out: Path, facts: dict[str, Any]) -> None:

@@ -105,8 +105,8 @@ class Render:
         passes = settings.pop("passes", ())
         integrator = settings.pop("integrator", None)
         desc.integrator = None if integrator is None else integrator.encode()
-        for name in passes:
-            desc.passes |= 1 << pass_table()[name][0]
+        below, desc.passes_above = structs.pass_bits(pass_table()[name][0] for name in passes)
+        desc.passes |= below
         for key, value in settings.items():
             assert hasattr(desc, key), key
             setattr(desc, key, value)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from addon.native import structs
-from tests.engine.bits import assert_same_bits, broken_off_within_batches, pictures
-from tests.engine.library import Image, Render, Scene, functions, last_error, pass_table
+from tests.engine.bits import all_passes, assert_same_bits, broken_off_within_batches, pictures
+from tests.engine.library import Image, Render, Scene, functions, last_error
 from tests.engine.probe.film import sample_allocation
 from tests.engine.worlds import everything
 
@@ -81,7 +81,7 @@ SETTINGS: dict[str, Any] = {"seed": 5, "threads": 2, "adaptive": 1, "tile_size":
 
 
 def rendered(**settings: Any) -> dict[str, Image]:
-    with Render(scene(), passes=tuple(pass_table()), **{**SETTINGS, "samples": SAMPLES, **settings}) as render:
+    with Render(scene(), passes=all_passes(), **{**SETTINGS, "samples": SAMPLES, **settings}) as render:
         return pictures(render.run())
 
 
@@ -121,15 +121,15 @@ def test_threads_and_tiles(settings: dict[str, int]) -> None:
 @pytest.mark.parametrize("at", [9, PLANNED_AT, 21])
 def test_resume(at: int) -> None:
     """Before the plan, when it is to be made, and after it."""
-    with Render(scene(), samples=at, passes=tuple(pass_table()), **SETTINGS) as render:
+    with Render(scene(), samples=at, passes=all_passes(), **SETTINGS) as render:
         state = render.run().save()
-    with Render(scene(), samples=SAMPLES, passes=tuple(pass_table()), **SETTINGS) as render:
+    with Render(scene(), samples=SAMPLES, passes=all_passes(), **SETTINGS) as render:
         render.load(state)
         assert_same_bits(reference(), pictures(render.run()))
 
 
 def test_resume_from_the_middle_of_a_batch() -> None:
-    settings: dict[str, Any] = {**SETTINGS, "tile_size": 8, "passes": tuple(pass_table())}
+    settings: dict[str, Any] = {**SETTINGS, "tile_size": 8, "passes": all_passes()}
     with Render(scene(), samples=PLANNED_AT + 1, **settings) as render:
         planned = render.run().save()
     settings["samples"] = SAMPLES

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.engine.bits import assert_same_bits, broken_off_within_batches, pictures
-from tests.engine.library import Image, Render, Scene, pass_table
+from tests.engine.bits import all_passes, assert_same_bits, broken_off_within_batches, pictures
+from tests.engine.library import Image, Render, Scene
 from tests.engine.worlds import everything
 
 SAMPLES = 3  # three batches
@@ -23,7 +23,7 @@ def scene(fog: bool = True, glass: bool = True) -> Scene:
 
 
 def passes() -> tuple[str, ...]:
-    return tuple(pass_table())
+    return all_passes()
 
 
 def rendered(which: Scene, **settings: Any) -> dict[str, Image]:

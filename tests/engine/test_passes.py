@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from addon.scene import description as d
-from tests.engine.bits import assert_same_bits, pictures, plain_passes
-from tests.engine.library import Image, Render, Scene, pass_table
+from tests.engine.bits import all_passes, assert_same_bits, pictures, plain_passes
+from tests.engine.library import Image, Render, Scene
 from tests.engine.worlds import everything
 from tests.render.build import Builder, camera, floor, grey, quad
 
@@ -88,7 +88,7 @@ def test_parts_of_the_light_make_up_the_picture(name: str) -> None:
 def test_passes_change_no_bit_of_the_others() -> None:
     world = Scene(everything(48, 36))
     results = []
-    for names in (plain_passes(), tuple(pass_table())):
+    for names in (plain_passes(), all_passes()):
         with Render(world, samples=4, passes=names) as handle:
             results.append(pictures(handle.run(), plain_passes()))
     assert_same_bits(*results)
@@ -98,7 +98,8 @@ def test_passes_change_no_bit_of_the_others() -> None:
 def test_a_transparent_film_is_the_picture_without_its_environment(adaptive: bool) -> None:
     scene = balls()
     clear = replace(scene, film=replace(scene.film, transparent=True))
-    opaque = render(scene, "environment", "alpha", samples=32, adaptive=adaptive)
+    # Emitter rays would have no alpha.
+    opaque = render(scene, "environment", "alpha", samples=32, adaptive=adaptive, integrator="path-no-emitter-rays")
     found = render(clear, "environment", samples=32)
     np.testing.assert_allclose(opaque["alpha"], 1, rtol=1e-6)
     with Render(Scene(clear), samples=32) as handle:  # alpha is there without being asked for
@@ -172,8 +173,68 @@ def _corner_uvs() -> Image:
     return corners[[0, 1, 2, 0, 2, 3]]
 
 
+def grouped(**parts: Any) -> d.SceneDescription:
+    """The balls, each light of theirs in a group of its own."""
+    scene = balls(**parts)
+    spheres = tuple(replace(item, light_group=1) for item in scene.spheres)
+    lights = tuple(replace(lamp, flags=replace(lamp.flags, light_group=2)) for lamp in scene.lights)
+    panel = quad((-2, 3, 2), (0.5, 0, 0), (0, 0, 0.5))
+    material = d.NamedMaterial("panel", d.Light((3, 4, 5)))
+    glow = d.Object("panel", panel, (len(scene.materials),), light_group=16)
+    return replace(
+        scene,
+        spheres=spheres,
+        lights=lights,
+        environment=replace(scene.environment, light_group=3),
+        objects=(*scene.objects, glow),
+        materials=(*scene.materials, material),
+    )
+
+
+GROUPS = tuple(f"light_group_{i}" for i in (1, 2, 3, 16))
+
+
+@pytest.mark.parametrize("medium", [None, d.Medium(grey(0.01), grey(0.05), 0.3)])
+def test_light_groups_make_up_the_picture(medium: d.Medium | None) -> None:
+    scene = grouped(medium=medium)
+    found = render(scene, *GROUPS, "light_group_4")
+    np.testing.assert_allclose(sum(found[name] for name in GROUPS), found["combined"], rtol=2e-5, atol=2e-6)
+    assert not found["light_group_4"].any()
+    for name in GROUPS if medium is None else GROUPS[:2]:
+        assert found[name].any(), name
+    # A group alone is the picture without the other lights.
+    if medium is None:
+        dark = replace(scene, lights=(), materials=tuple(_dark(item) for item in scene.materials))
+        alone = render(dark, samples=256)["combined"]
+        sky = render(scene, "light_group_3", samples=256)["light_group_3"]
+        np.testing.assert_allclose(sky.mean(axis=(0, 1)), alone.mean(axis=(0, 1)), rtol=0.02)
+
+
+def _dark(named: d.NamedMaterial) -> d.NamedMaterial:
+    if isinstance(named.material, d.Light):
+        return replace(named, material=d.Light(grey(0)))
+    if isinstance(named.material, d.Lambert):
+        return replace(named, material=replace(named.material, emission=grey(0)))
+    return named
+
+
+def test_mattes_say_what_takes_up_how_much() -> None:
+    """The half transparent plate before another one, each as wide as the picture."""
+    builder = Builder(camera((0, -4, 0), (0, 0, 0), 40), 4, 3, environment=SKY)
+    builder.mesh(quad((0, 0, 0), (5, 0, 0), (0, 0, 5)), d.Mix(0.25, d.Transparent(grey(1)), d.Lambert(grey(0.5))))
+    scene = builder.mesh(quad((0, 1, 0), (9, 0, 0), (0, 0, 9)), d.Lambert(grey(0.5))).done()
+    scene = replace(scene, objects=tuple(replace(item, matte=5 + i) for i, item in enumerate(scene.objects)))
+    found = render(scene, "object_matte", "material_matte", samples=400)
+    for name, numbers in (("object_matte", {5.0, 6.0}), ("material_matte", None)):
+        pairs = found[name]
+        assert numbers is None or set(np.unique(pairs[..., :4:2])) == numbers
+        np.testing.assert_allclose(np.sort(pairs[..., 1:4:2]).mean(axis=(0, 1)), (0.25, 0.75), atol=0.02)
+        np.testing.assert_allclose(pairs[..., 1::2].sum(axis=-1), 1, atol=0.06)
+        assert (np.diff(pairs[..., 1::2], axis=-1) <= 0).all() and not pairs[..., 4:].any()
+
+
 def test_saved_states_hold_the_new_passes() -> None:
-    names = ("alpha", "mist", "glossy_direct")
+    names = ("alpha", "mist", "glossy_direct", "object_matte", "light_group_16")
     scene = Scene(replace(balls(), film=replace(balls().film, transparent=True)))
     with Render(scene, samples=4, passes=names) as first:
         state = first.run().save()

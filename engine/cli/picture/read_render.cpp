@@ -14,16 +14,16 @@ std::vector<std::string> channel_names(glimmer_pass pass) {
     return names;
 }
 
-Picture read_render(glimmer_render *render, const Film &film, uint32_t passes, bool has_standard_error) {
+Picture read_render(glimmer_render *render, const Film &film, uint64_t passes, bool has_standard_error) {
     Picture picture;
     picture.width = film.width;
     picture.height = film.height;
     picture.window = film.crop;
 
-    passes |= 1u << GLIMMER_PASS_COMBINED;
-    passes &= ~(1u << GLIMMER_PASS_STDERR);
-    passes |= film.transparent ? 1u << GLIMMER_PASS_ALPHA : 0;
-    passes |= has_standard_error ? 1u << GLIMMER_PASS_STDERR : 0;
+    passes |= 1ull << GLIMMER_PASS_COMBINED;
+    passes &= ~(1ull << GLIMMER_PASS_STDERR);
+    passes |= film.transparent ? 1ull << GLIMMER_PASS_ALPHA : 0;
+    passes |= has_standard_error ? 1ull << GLIMMER_PASS_STDERR : 0;
     std::vector<std::vector<float>> planes; // one for each pass, interleaved
     std::vector<size_t> widths;
     for (uint32_t bit = 0; bit < GLIMMER_PASS_COUNT; ++bit) {

@@ -13,6 +13,6 @@ std::vector<std::string> channel_names(glimmer_pass pass);
 
 /// The combined pass, alpha where the film is transparent, the standard error where it is known, and the passes of a
 /// bit set. Leaves the info empty.
-Picture read_render(glimmer_render *render, const Film &film, uint32_t passes, bool has_standard_error);
+Picture read_render(glimmer_render *render, const Film &film, uint64_t passes, bool has_standard_error);
 
 } // namespace glimmer

@@ -22,7 +22,8 @@ void read_sky(const Value &value, const Value &radiance, const Programs &program
 } // namespace
 
 void read_environment(const Value &value, const Programs &programs, glimmer_scene *scene, SceneFolder &folder) {
-    value.expect_object({"radiance", "image", "strength", "to_world", "sun", "visible"});
+    value.expect_object({"radiance", "image", "strength", "to_world", "sun", "visible", "light_group"});
+    check(glimmer_scene_set_environment_light_group(scene, read_light_group(value)), value.where());
     if (const auto visible = value.find("visible"))
         check(glimmer_scene_set_environment_visible(scene, read_rays(*visible)), visible->where());
     if (value.has("radiance") == value.has("image"))

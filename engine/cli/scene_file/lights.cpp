@@ -18,6 +18,7 @@ void copy(const From &from, To &to) {
 
 /// What all types have.
 void read_common(const Value &value, glimmer_light_desc &desc) {
+    desc.light_group = read_light_group(value);
     if (const auto visible = value.find("visible"))
         desc.visible = read_rays(*visible);
     if (const auto shadows = value.find("shadows"))
@@ -53,6 +54,11 @@ void read_area(const Value &value, glimmer_light_desc &desc) {
 
 } // namespace
 
+uint32_t read_light_group(const Value &owner) {
+    const auto group = owner.find("light_group");
+    return group ? static_cast<uint32_t>(group->integer(0, GLIMMER_MAX_LIGHT_GROUPS)) : 0;
+}
+
 void read_light(const Value &value, glimmer_scene *scene) {
     value.expect_table();
     const std::string name = value.path();
@@ -62,12 +68,13 @@ void read_light(const Value &value, glimmer_scene *scene) {
     desc.type = kTypes[one_of(value.at("type"), "a light type", "light types", kNames)];
     switch (desc.type) {
     case GLIMMER_POINT:
-        value.expect_object({"type", "position", "intensity", "radius", "shape", "visible", "shadows", "max_bounces"});
+        value.expect_object(
+            {"type", "position", "intensity", "radius", "shape", "visible", "shadows", "max_bounces", "light_group"});
         read_point(value, desc);
         break;
     case GLIMMER_SPOT:
         value.expect_object({"type", "position", "intensity", "radius", "direction", "angle", "blend", "times_cosine",
-                             "shape", "visible", "shadows", "max_bounces"});
+                             "shape", "visible", "shadows", "max_bounces", "light_group"});
         read_point(value, desc);
         copy(value.at("direction").direction(), desc.direction);
         desc.angle = value.at("angle").number({.low = 0, .high = 180, .open_low = true});
@@ -76,15 +83,16 @@ void read_light(const Value &value, glimmer_scene *scene) {
             desc.times_cosine = cosine->boolean();
         break;
     case GLIMMER_SUN:
-        value.expect_object({"type", "direction", "irradiance", "angle", "shape", "visible", "shadows", "max_bounces"});
+        value.expect_object(
+            {"type", "direction", "irradiance", "angle", "shape", "visible", "shadows", "max_bounces", "light_group"});
         copy(value.at("direction").direction(), desc.direction);
         copy(value.at("irradiance").color(kNonNegative), desc.color);
         desc.angle = value.has("angle") ? value.at("angle").number(kAngle) : 0;
         desc.disk = is_second_shape(value, kSunShapes);
         break;
     case GLIMMER_AREA:
-        value.expect_object(
-            {"type", "to_world", "size", "shape", "radiance", "spread", "visible", "shadows", "max_bounces"});
+        value.expect_object({"type", "to_world", "size", "shape", "radiance", "spread", "visible", "shadows",
+                             "max_bounces", "light_group"});
         read_area(value, desc);
         break;
     }

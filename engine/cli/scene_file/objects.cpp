@@ -68,7 +68,8 @@ std::vector<double> read_motion(const Value &value) {
 void read_object(const Value &value, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
                  SceneFolder &folder) {
     value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices",
-                         "color", "random", "randoms", "attributes", "visible", "holdout", "interior"});
+                         "color", "random", "randoms", "attributes", "visible", "holdout", "interior", "matte",
+                         "light_group"});
     const std::string name = value.path();
     glimmer_object_desc desc;
     glimmer_object_init(&desc);

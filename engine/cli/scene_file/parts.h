@@ -78,6 +78,9 @@ DepthLimits read_depth_limits(const Value &render);
 /// What stands at "motion", row by row and one matrix after another; empty where there is none.
 std::vector<double> read_motion(const Value &value);
 
+/// The number at "light_group"; 0, none, where there is none.
+uint32_t read_light_group(const Value &owner);
+
 /// A list of kinds of rays, as a set of glimmer_ray.
 uint32_t read_rays(const Value &list);
 
@@ -91,6 +94,9 @@ void read_body(const Value &value, const std::optional<glimmer_medium_desc> &int
         desc.visible = read_rays(*visible);
     if (const auto holdout = value.find("holdout"))
         desc.holdout = holdout->boolean();
+    if (const auto matte = value.find("matte"))
+        desc.matte = static_cast<uint32_t>(matte->integer(0, 1 << 24));
+    desc.light_group = read_light_group(value);
     if (interior)
         desc.interior = &*interior;
 }

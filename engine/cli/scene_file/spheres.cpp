@@ -5,8 +5,8 @@
 namespace glimmer {
 
 void read_spheres(const Value &value, glimmer_scene *scene, const Materials &materials, SceneFolder &folder) {
-    value.expect_object(
-        {"center", "centers", "radius", "radii", "material", "index", "visible", "holdout", "interior"});
+    value.expect_object({"center", "centers", "radius", "radii", "material", "index", "visible", "holdout", "interior",
+                         "matte", "light_group"});
     if (value.has("center") == value.has("centers"))
         value.fail("needs either center or centers");
     if (value.has("radius") == value.has("radii"))

@@ -52,8 +52,9 @@ glimmer_result glimmer_render_create(glimmer_scene *scene, const glimmer_render_
         check_range(d.target_error, 0, HUGE_VAL, "render: target_error");
         check_range(d.threads, 0, 4096, "render: threads");
         check_range(d.tile_size, 0, 65536, "render: tile_size");
-        if (d.passes >> GLIMMER_PASS_COUNT)
-            fail_argument("render: passes has bits above pass " + std::to_string(GLIMMER_PASS_COUNT - 1));
+        const uint64_t passes = d.passes | uint64_t(d.passes_above) << 32;
+        if (passes >> GLIMMER_PASS_COUNT)
+            fail_argument("render: passes_above has bits above pass " + std::to_string(GLIMMER_PASS_COUNT - 1));
         RenderSettings settings;
         settings.integrator = checked_integrator(d.integrator);
         if (const std::string renamed = renamed_integrator(d.integrator ? d.integrator : ""); !renamed.empty())
@@ -64,9 +65,9 @@ glimmer_result glimmer_render_create(glimmer_scene *scene, const glimmer_render_
         settings.seed = d.seed;
         settings.threads = d.threads;
         settings.tile_size = d.tile_size ? (d.tile_size + kBlockSize - 1) / kBlockSize * kBlockSize : 64;
-        settings.passes = d.passes | 1u << GLIMMER_PASS_COMBINED;
+        settings.passes = passes | bit_of(GLIMMER_PASS_COMBINED);
         if (s.scene->film.transparent)
-            settings.passes |= 1u << GLIMMER_PASS_ALPHA;
+            settings.passes |= bit_of(GLIMMER_PASS_ALPHA);
         settings.limits = {depth_limit(d.max_depth, "max_depth"), depth_limit(d.max_scatter, "max_scatter")};
         settings.adaptive = d.adaptive != 0;
         settings.full_kernel = d.full_kernel != 0;
@@ -135,7 +136,7 @@ glimmer_result glimmer_render_read(glimmer_render *render, glimmer_pass pass, ui
         if (uint32_t(pass) >= GLIMMER_PASS_COUNT)
             fail_argument("read: pass " + std::to_string(int(pass)) + " is not known; allowed: 0 to " +
                           std::to_string(GLIMMER_PASS_COUNT - 1));
-        if (!is_always_there(pass) && !(film.passes() & (1u << pass)))
+        if (!is_always_there(pass) && !(film.passes() & bit_of(pass)))
             fail_argument(std::string("read: the pass \"") + kPasses[pass].info.name +
                           "\" was not asked for when the render was made");
         if (x > film.width() || width > film.width() - x || y > film.height() || height > film.height() - y)

@@ -31,6 +31,16 @@ void check_rigid(const double *m, const std::string &what) {
                 fail_argument(what + " must be rigid (rotation and translation, no scale or shear)");
 }
 
+uint32_t checked_matte(uint32_t matte, const std::string &what) {
+    check_range(matte, 0, 1u << 24, what + ": matte");
+    return matte;
+}
+
+uint8_t checked_light_group(uint32_t group, const std::string &what) {
+    check_range(group, 0, GLIMMER_MAX_LIGHT_GROUPS, what + ": light_group");
+    return uint8_t(group);
+}
+
 void check_visible(uint32_t visible, const std::string &what) {
     check_range(visible, 0, GLIMMER_RAY_ALL, what + ": visible");
 }
@@ -197,6 +207,8 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         check_visible(d.visible, what);
         out.visible = RayMask(d.visible);
         out.holdout = d.holdout != 0;
+        out.matte = checked_matte(d.matte, what);
+        out.light_group = checked_light_group(d.light_group, what);
         out.attributes = checked_attributes(d.attribute_count, d.attributes,
                                             {kNoRows, kNoRows, kNoRows, out.instances.size()}, what);
         out.interior = checked_interior(d.interior, what);
@@ -248,6 +260,8 @@ glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_sph
         check_visible(d.visible, what);
         out.visible = RayMask(d.visible);
         out.holdout = d.holdout != 0;
+        out.matte = checked_matte(d.matte, what);
+        out.light_group = checked_light_group(d.light_group, what);
         out.interior = checked_interior(d.interior, what);
         s.spheres.push_back(std::move(out));
     });
@@ -277,6 +291,7 @@ glimmer_result glimmer_scene_add_light(glimmer_scene *scene, const glimmer_light
         LightDescription out;
         static_cast<glimmer_light_desc &>(out) = checked_desc(desc, defaults, "light");
         check_light(out, label_of("light", out.name));
+        checked_light_group(out.light_group, label_of("light", out.name));
         out.label = out.name ? out.name : "";
         s.lights.push_back(std::move(out));
     });
@@ -310,6 +325,13 @@ glimmer_result glimmer_scene_set_environment_visible(glimmer_scene *scene, uint3
         SceneDescription &s = open_scene(scene);
         check_visible(visible, "environment");
         s.environment_visible = RayMask(visible | GLIMMER_RAY_SHADOW);
+    });
+}
+
+glimmer_result glimmer_scene_set_environment_light_group(glimmer_scene *scene, uint32_t light_group) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        s.environment_light_group = checked_light_group(light_group, "environment");
     });
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -19,7 +20,7 @@ bool is_kept_as_sum(uint32_t pass) {
 
 } // namespace
 
-Film::Film(uint32_t width, uint32_t height, uint32_t tile_size, uint32_t passes, bool adaptive)
+Film::Film(uint32_t width, uint32_t height, uint32_t tile_size, uint64_t passes, bool adaptive)
     : width_(width), height_(height), tile_size_(tile_size), tile_columns_((width + tile_size - 1) / tile_size),
       passes_(passes) {
     const uint32_t rows = (height + tile_size - 1) / tile_size;
@@ -47,9 +48,9 @@ Film::Film(uint32_t width, uint32_t height, uint32_t tile_size, uint32_t passes,
     const size_t pixels = size_t(width) * height;
     radiance_.resize(pixels);
     for (uint32_t p = 0; p < GLIMMER_PASS_COUNT; ++p)
-        if (is_kept_as_sum(p) && (passes & (1u << p)))
+        if (is_kept_as_sum(p) && (passes & bit_of(p)))
             sums_[p].assign(pixels * pass_channels(glimmer_pass(p)), 0.0f);
-    if (passes & (1u << GLIMMER_PASS_DEPTH))
+    if (passes & bit_of(GLIMMER_PASS_DEPTH))
         hits_.assign(pixels, 0.0f);
     if (adaptive)
         allocation_.resize(pixels);
@@ -178,6 +179,16 @@ void Film::read_pixel(glimmer_pass pass, size_t pixel, uint64_t n, float *out) c
     case GLIMMER_RULE_FIRST:
         std::copy_n(sums, channels, out);
         return;
+    case GLIMMER_RULE_MATTE: {
+        std::array<std::pair<float, float>, GLIMMER_MATTE_RANKS> ranks;
+        const float waves = covered(pixel, n), inverse = waves > 0 ? 1.0f / waves : 0.0f;
+        for (size_t i = 0; i < ranks.size(); ++i)
+            ranks[i] = {sums[2 * i], sums[2 * i + 1] * inverse};
+        std::ranges::stable_sort(ranks, std::greater(), &std::pair<float, float>::second);
+        for (size_t i = 0; i < ranks.size(); ++i)
+            out[2 * i] = ranks[i].first, out[2 * i + 1] = ranks[i].second;
+        return;
+    }
     case GLIMMER_RULE_MEAN: {
         if (!sums)
             return write(estimate_pixel(at_one_a_wave(pixel, n), n).mean);
@@ -189,7 +200,7 @@ void Film::read_pixel(glimmer_pass pass, size_t pixel, uint64_t n, float *out) c
 }
 
 void Film::save(std::vector<uint8_t> &out) const {
-    const uint32_t head[4] = {width_, height_, tile_size_, passes_};
+    const uint64_t head[4] = {width_, height_, tile_size_, passes_};
     append(out, head, 4);
     for (size_t i = 0; i < tiles_.size(); ++i) {
         const uint64_t n = tile_samples(i);
@@ -205,7 +216,7 @@ void Film::save(std::vector<uint8_t> &out) const {
 }
 
 void Film::load(const uint8_t *&data, const uint8_t *end) {
-    uint32_t head[4];
+    uint64_t head[4];
     take(data, end, head, 4);
     if (head[0] != width_ || head[1] != height_ || head[2] != tile_size_ || head[3] != passes_)
         fail_argument("the saved state is of another picture size, tile size or set of passes");
@@ -278,6 +289,9 @@ void Film::Tile::add_to_pass(glimmer_pass pass, size_t pixel, uint64_t wave, con
     const glimmer_pass_rule rule = kPasses[size_t(pass)].info.rule;
     const size_t channels = pass_channels(pass);
     float *sums = sums_[size_t(pass)].data() + pixel * channels;
+    if (rule == GLIMMER_RULE_MATTE)
+        return add_covers(*sample.more, pass == GLIMMER_PASS_OBJECT_MATTE ? &Cover::object : &Cover::material, weight,
+                          sums);
     std::array<float, detail::kMaxPassChannels> value;
     kPasses[size_t(pass)].value(sample, value.data());
     if (rule == GLIMMER_RULE_FIRST) {
@@ -286,6 +300,21 @@ void Film::Tile::add_to_pass(glimmer_pass pass, size_t pixel, uint64_t wave, con
     } else if (rule == GLIMMER_RULE_MEAN || sample.hit) {
         for (size_t c = 0; c < channels; ++c)
             sums[c] += value[c] * weight;
+    }
+}
+
+void Film::Tile::add_covers(const PassSample &sample, uint32_t Cover::*number, float weight, float *pairs) {
+    for (uint32_t i = 0; i < sample.cover_count; ++i) {
+        const auto of = float(sample.covers[i].*number);
+        // Where there are too many, the last pair stands for all the rest.
+        uint32_t rank = 0;
+        while (rank + 1 < GLIMMER_MATTE_RANKS && pairs[2 * rank] != of && pairs[2 * rank] != 0)
+            ++rank;
+        if (of == 0)
+            continue;
+        if (pairs[2 * rank] == 0)
+            pairs[2 * rank] = of;
+        pairs[2 * rank + 1] += sample.covers[i].part * weight;
     }
 }
 

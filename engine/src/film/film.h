@@ -25,11 +25,11 @@ namespace glimmer {
 class Film {
   public:
     /// passes: bit set of 1 << glimmer_pass. The picture is cut into tiles, each with a lock of its own.
-    Film(uint32_t width, uint32_t height, uint32_t tile_size, uint32_t passes, bool adaptive = false);
+    Film(uint32_t width, uint32_t height, uint32_t tile_size, uint64_t passes, bool adaptive = false);
 
     uint32_t width() const { return width_; }
     uint32_t height() const { return height_; }
-    uint32_t passes() const { return passes_; }
+    uint64_t passes() const { return passes_; }
     size_t bytes() const;
 
     const std::vector<Rectangle> &tiles() const { return tiles_; }
@@ -75,7 +75,8 @@ class Film {
     /// Writes one pixel of a pass after n waves, by the rule of the pass.
     void read_pixel(glimmer_pass pass, size_t pixel, uint64_t n, float *out) const;
 
-    uint32_t width_, height_, tile_size_, tile_columns_, passes_;
+    uint32_t width_, height_, tile_size_, tile_columns_;
+    uint64_t passes_;
     std::vector<Rectangle> tiles_; ///< in the order of rendering: from the centre outwards
     std::vector<uint32_t> tile_of_cell_;
     std::unique_ptr<std::atomic<uint64_t>[]> tile_samples_;
@@ -99,6 +100,8 @@ class Film::Tile {
 
   private:
     void copy(bool put_back);
+    /// Adds the parts of a pixel that a sample's surfaces take up to those of their numbers.
+    static void add_covers(const PassSample &sample, uint32_t Cover::*number, float weight, float *pairs);
     void add_to_pass(glimmer_pass pass, size_t pixel, uint64_t wave, const FilmSample &sample, float weight);
 
     Film &film_;

@@ -44,6 +44,14 @@ template <auto Member>
 void rest_value(const FilmSample &sample, float *channels) {
     channels[0] = 1 - sample.more->*Member;
 }
+template <size_t Group>
+constexpr Pass light_group(const char *name) {
+    return {{name, "RGB", "light from the lights of the group", GLIMMER_RULE_MEAN},
+            [](const FilmSample &sample, float *channels) { put(sample.more->light_groups[Group], channels); }};
+}
+/// The film adds covers up by itself.
+inline void no_value(const FilmSample &, float *) {}
+inline constexpr const char *kMatteChannels = "0123456789abcdefghijklmnopqrstuv"; // numbers even, parts odd
 
 } // namespace detail
 
@@ -107,10 +115,35 @@ inline constexpr std::array<Pass, GLIMMER_PASS_COUNT> kPasses{{
      detail::more_value<&PassSample::volume_direct>},
     {{"volume_indirect", "RGB", "other light that a medium scatters to the camera", GLIMMER_RULE_MEAN},
      detail::more_value<&PassSample::volume_indirect>},
+    {{"object_matte", detail::kMatteChannels, "numbers and parts of the pixel of the objects seen", GLIMMER_RULE_MATTE},
+     detail::no_value},
+    {{"material_matte", detail::kMatteChannels, "the same of 1 + the materials", GLIMMER_RULE_MATTE}, detail::no_value},
+    detail::light_group<0>("light_group_1"),
+    detail::light_group<1>("light_group_2"),
+    detail::light_group<2>("light_group_3"),
+    detail::light_group<3>("light_group_4"),
+    detail::light_group<4>("light_group_5"),
+    detail::light_group<5>("light_group_6"),
+    detail::light_group<6>("light_group_7"),
+    detail::light_group<7>("light_group_8"),
+    detail::light_group<8>("light_group_9"),
+    detail::light_group<9>("light_group_10"),
+    detail::light_group<10>("light_group_11"),
+    detail::light_group<11>("light_group_12"),
+    detail::light_group<12>("light_group_13"),
+    detail::light_group<13>("light_group_14"),
+    detail::light_group<14>("light_group_15"),
+    detail::light_group<15>("light_group_16"),
 }};
 
-/// The passes that are made from a PassSample.
-inline constexpr uint32_t kPassesOfMore = ~0u << GLIMMER_PASS_ALPHA & ((1u << GLIMMER_PASS_COUNT) - 1);
+/// Passes as a set of bits.
+using PassBits = uint64_t;
+constexpr PassBits bit_of(uint32_t pass) {
+    return PassBits(1) << pass;
+}
+/// Those that are made from a PassSample, and of them those of light by group.
+inline constexpr PassBits kPassesOfMore = bit_of(GLIMMER_PASS_COUNT) - bit_of(GLIMMER_PASS_ALPHA);
+inline constexpr PassBits kLightGroupPasses = bit_of(GLIMMER_PASS_COUNT) - bit_of(GLIMMER_PASS_LIGHT_GROUP);
 
 inline size_t pass_channels(glimmer_pass pass) {
     return std::strlen(kPasses[size_t(pass)].info.channels);

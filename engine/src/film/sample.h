@@ -2,11 +2,19 @@
 // The result of one camera sample.
 #pragma once
 
+#include "glimmer.h"
 #include "math/vec.h"
 
+#include <array>
 #include <cstdint>
 
 namespace glimmer {
+
+/// The part of a sample that one surface takes up.
+struct Cover {
+    uint32_t object, material;
+    float part;
+};
 
 /// What only some passes show. A renderer that has been asked for none of them carries none of this.
 struct PassSample {
@@ -19,11 +27,16 @@ struct PassSample {
     Vec3f uv;                                            ///< u, v, 1
     float clearness = 0;    ///< 1 less the mist, of the part of the sample that surfaces take up
     float transparency = 0; ///< part of the sample where the picture is empty
+    std::array<Rgb, GLIMMER_MAX_LIGHT_GROUPS> light_groups;
+    std::array<Cover, 8> covers; ///< what the camera sees, the nearest first; what lies behind so many is left out
+    uint32_t cover_count = 0;
 
     void expose(float factor) {
         for (Rgb *part : {&emit, &environment, &diffuse_direct, &diffuse_indirect, &glossy_direct, &glossy_indirect,
                           &transmission_direct, &transmission_indirect, &volume_direct, &volume_indirect})
             *part *= factor;
+        for (Rgb &group : light_groups)
+            group *= factor;
     }
 };
 

@@ -48,7 +48,7 @@ std::string renamed_integrator(std::string_view name) {
 }
 
 std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
-                                                  uint32_t passes, bool full_kernel) {
+                                                  uint64_t passes, bool full_kernel) {
     return make_path_integrator(scene, limits, flags_of(index), passes, full_kernel);
 }
 

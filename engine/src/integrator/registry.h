@@ -46,6 +46,6 @@ std::string renamed_integrator(std::string_view name);
 /// index: into kIntegrators. passes: bit set of 1 << glimmer_pass, what the film keeps. full_kernel: the code for all
 /// scenes, not what was compiled for scenes like this one; both give the same bits.
 std::unique_ptr<const Integrator> make_integrator(uint32_t index, const Scene &scene, const DepthLimits &limits,
-                                                  uint32_t passes, bool full_kernel);
+                                                  uint64_t passes, bool full_kernel);
 
 } // namespace glimmer

@@ -34,6 +34,7 @@ struct LightFlags {
     RayMask visible = kEveryRay;  ///< rays that meet it, by the lobes that they left; at these it is sampled too
     bool shadows = true;          ///< false: nothing stands between it and a point that samples it
     uint32_t max_bounces = kNone; ///< it is sampled no more where the path has scattered more often before
+    uint8_t group = 0;            ///< whose pass shows its light; 0: none. Of shining meshes each triangle's says so
 };
 
 /// A direction towards a light and what comes from there if nothing stands between (no transmittance).
@@ -47,6 +48,7 @@ struct LightSample {
     float error = 0, facing = 1;     ///< of a shining triangle: of its positions, and |cos| there
     RayMask visible = kEveryRay;     ///< LightFlags::visible
     bool shadows = true;             ///< LightFlags::shadows
+    uint8_t group = 0;               ///< of a shining mesh: LightFlags::group
 };
 
 /// Where a ray has met a light.

@@ -19,6 +19,7 @@ struct MeshLight {
         Rgb radiance;
         float error;                 ///< of positions on it
         RayMask visible = kEveryRay; ///< of its object
+        uint8_t group = 0;           ///< LightFlags::group
     };
     std::vector<Triangle> triangles;
     AliasTable choice;
@@ -56,6 +57,7 @@ inline std::optional<LightSample> sample(const MeshLight &light, const Vec3f &x,
     const auto cosine = float(std::abs(dot(normal, Vec3d(s->wi))) / length(normal));
     LightSample out{s->wi, s->distance, t.radiance, s->pdf * choice.pmf, false, kNone, t.error, cosine};
     out.visible = t.visible;
+    out.group = t.group;
     if (!light.places.empty()) {
         const Vec3d p = Vec3d(s->wi) * double(s->distance) - a, e1 = b - a, e2 = c - a;
         const double n2 = dot(normal, normal);

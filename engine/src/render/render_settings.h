@@ -16,8 +16,9 @@ struct RenderSettings {
     double seconds = 0;      ///< of wall time; 0: no limit
     double target_error = 0; ///< relMSE; 0: no limit
     uint64_t seed = 0;
-    uint32_t threads = 0;                ///< 0: one for each core
-    uint32_t tile_size = 64, passes = 1; ///< pixels; bit set of 1 << glimmer_pass
+    uint32_t threads = 0;    ///< 0: one for each core
+    uint32_t tile_size = 64; ///< pixels
+    uint64_t passes = 1;     ///< bit set of 1 << glimmer_pass
     DepthLimits limits;
     bool adaptive = false;         ///< film/sample_allocation.h
     bool full_kernel = false;      ///< make_integrator

@@ -122,6 +122,7 @@ void SceneBuilder::build_geometry() {
         const bool shines = may_shine_anywhere(object);
         const auto index = uint32_t(scene_.object_materials.size());
         scene_.object_materials.push_back(object.materials);
+        scene_.object_passes.push_back({object.matte, object.light_group});
         for (size_t i = 0; i < object.instances.size(); ++i) {
             auto instance = place(object, i, *mesh, motions);
             if (!instance) {
@@ -171,6 +172,7 @@ void SceneBuilder::build_geometry() {
             spheres.push_back({group.centers[i] - origin_, group.radii.size() == 1 ? group.radii[0] : group.radii[i]});
             scene_.sphere_materials.push_back(group.material);
             scene_.sphere_indices.push_back(group.object_index);
+            scene_.sphere_passes.push_back({group.matte, group.light_group});
             visible.push_back(group.visible);
             holdouts.push_back(group.holdout);
         }

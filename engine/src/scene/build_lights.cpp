@@ -41,7 +41,8 @@ Light round_lamp(const LightDescription &light, const Vec3d &position, const Rgb
 }
 
 LightFlags flags_of(const LightDescription &light) {
-    return {RayMask(light.visible | mask_of(RayKind::shadow)), light.shadows != 0, light.max_bounces};
+    return {RayMask(light.visible | mask_of(RayKind::shadow)), light.shadows != 0, light.max_bounces,
+            uint8_t(light.light_group)};
 }
 
 /// Where the instance, as it is in float32, has a point of its mesh: rounded there, the edges of a small and distant
@@ -90,7 +91,8 @@ void SceneBuilder::add_sphere_lights(LightList &lights) const {
     const std::vector<Sphere> &spheres = scene_.accel->spheres();
     for (uint32_t i = 0; i < spheres.size(); ++i) {
         const uint32_t m = scene_.sphere_materials[i];
-        const LightFlags flags{.visible = scene_.accel->visible_sphere(i)};
+        const LightFlags flags{.visible = scene_.accel->visible_sphere(i),
+                               .group = scene_.sphere_passes[i].light_group};
         if (scene_.materials[m].varying != Material::kConstant) {
             if (!shines_varying(m))
                 continue;
@@ -153,6 +155,7 @@ void SceneBuilder::add_mesh_light(LightList &lights) const {
             const double area = 0.5 * length(cross(b - a, c - a));
             out.radiance = emission(t);
             out.visible = instance.visible;
+            out.group = scene_.object_passes[instance.object].light_group;
             out.error = kSampledPointRounding * (local + max_abs(instance.translation));
             const double strength = area * double(mean_component(out.radiance));
             if (!(strength > 0)) {
@@ -246,7 +249,8 @@ void SceneBuilder::add_sun_of_sky(LightList &lights) {
     sun.irradiance = sun.radiance * float(sun.disk.projected_solid_angle());
     if (!is_black(sun.irradiance))
         // The camera sees it in the sky.
-        lights.add(sun, {.visible = RayMask(description_.environment_visible & ~mask_of(RayKind::camera))});
+        lights.add(sun, {.visible = RayMask(description_.environment_visible & ~mask_of(RayKind::camera)),
+                         .group = description_.environment_light_group});
 }
 
 /// The program's radiance, which is sampled by a picture of it.
@@ -270,7 +274,8 @@ void SceneBuilder::add_sky(LightList &lights) {
         ++black_lights_;
         return;
     }
-    lights.add(std::move(light), {.visible = description_.environment_visible});
+    lights.add(std::move(light),
+               {.visible = description_.environment_visible, .group = description_.environment_light_group});
 }
 
 void SceneBuilder::add_environment(LightList &lights) {
@@ -299,7 +304,8 @@ void SceneBuilder::add_environment(LightList &lights) {
         ++black_lights_;
         return;
     }
-    lights.add(std::move(light), {.visible = description_.environment_visible});
+    lights.add(std::move(light),
+               {.visible = description_.environment_visible, .group = description_.environment_light_group});
 }
 
 /// usual: which rays see a light of its kind where nobody has said anything.

@@ -44,6 +44,8 @@ struct ObjectDescription {
     bool holdout = false;
     std::vector<MeshAttribute> attributes; ///< a row an instance
     std::optional<MediumDescription> interior;
+    uint32_t matte = 0;
+    uint8_t light_group = 0; ///< 0: none
 };
 
 struct SpheresDescription {
@@ -55,6 +57,8 @@ struct SpheresDescription {
     RayMask visible = kEveryRay;
     bool holdout = false;
     std::optional<MediumDescription> interior;
+    uint32_t matte = 0;
+    uint8_t light_group = 0;
 };
 
 struct EnvironmentDescription {
@@ -83,6 +87,7 @@ struct SceneDescription {
     std::optional<EnvironmentDescription> environment;
     std::optional<ParameterBinding> sky; ///< the program that gives the environment's radiance
     RayMask environment_visible = kEveryRay;
+    uint8_t environment_light_group = 0;
     std::optional<SkySunDescription> sky_sun;
     std::optional<MediumDescription> medium;
     std::optional<glimmer_camera_desc> camera;

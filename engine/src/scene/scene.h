@@ -29,6 +29,12 @@ struct FilmSettings {
     std::vector<float> filter_inverse; ///< inverse CDF over [0, 1] -> [-0.5, 0.5] of the width; empty: box
 };
 
+/// What passes know an object, or a sphere, by.
+struct BodyPasses {
+    uint32_t matte = 0;
+    uint8_t light_group = 0; ///< of what shines of it; 0: none
+};
+
 class Scene {
   public:
     /// Checks and builds, on `threads` threads at most (0: all). Throws Error.
@@ -44,7 +50,12 @@ class Scene {
     Materials materials;
     std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot
     std::vector<uint32_t> sphere_materials, sphere_indices;
-    std::vector<bool> sphere_holdouts; ///< empty: there are none
+    std::vector<bool> sphere_holdouts;                    ///< empty: there are none
+    std::vector<BodyPasses> object_passes, sphere_passes; ///< by object, by sphere
+    const BodyPasses &passes_of(const Hit &hit) const {
+        return hit.instance == kNone ? sphere_passes[hit.primitive]
+                                     : object_passes[accel->instances()[hit.instance].object];
+    }
     /// Whether the camera sees nothing where it meets this.
     bool is_holdout(const Hit &hit) const {
         if (hit.instance != kNone)

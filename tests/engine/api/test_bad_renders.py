@@ -23,7 +23,7 @@ from tests.engine.library import Render, engine, functions
         ({"tile_size": 1 << 20}, "tile_size"),
         ({"max_depth": -2}, "max_depth"),
         ({"max_scatter": -2}, "max_scatter"),
-        ({"passes": 1 << 31}, "passes"),
+        ({"passes_above": 1 << 31}, "passes_above"),
     ],
 )
 def test_bad_render(changes: dict[str, Any], word: str) -> None:

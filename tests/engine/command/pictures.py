@@ -39,6 +39,9 @@ AOV_CHANNELS = {
     },
     "volume_direct": "RGB",
     "volume_indirect": "RGB",
+    "object_matte": "0123456789abcdefghijklmnopqrstuv",
+    "material_matte": "0123456789abcdefghijklmnopqrstuv",
+    **{f"light_group_{i + 1}": "RGB" for i in range(16)},
 }
 IN_THE_MAIN_LAYER = ("combined", "alpha")
 

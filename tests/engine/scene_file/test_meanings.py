@@ -165,3 +165,32 @@ def check_meanings(folder: Path, base: Scene, meanings: list[tuple[tuple[str | i
         if all(np.array_equal(layers[name], reference[name]) for name in reference):
             forgotten.append(".".join(map(str, path)))
     assert not forgotten
+
+
+PASSES: list[tuple[tuple[str | int, ...], Any, str]] = [
+    (("film", "mist"), {"start": 7}, "mist.Z"),
+    (("film", "mist"), {"depth": 90}, "mist.Z"),
+    (("film", "mist"), {"falloff": 0.5}, "mist.Z"),
+    (("film", "transparent"), True, "R"),
+    (("spheres", 0, "matte"), 7, "object_matte.0"),
+    (("objects", 0, "matte"), 7, "object_matte.0"),
+    (("spheres", 0, "light_group"), 2, "light_group_2.R"),
+    (("objects", 0, "light_group"), 2, "light_group_2.R"),
+    (("lights", 0, "light_group"), 2, "light_group_2.R"),
+    (("environment", "light_group"), 2, "light_group_2.R"),
+]
+
+
+def test_every_value_of_passes_means_something(tmp_path: Path) -> None:
+    content = scenes.furnace(0.5)
+    content["materials"]["grey"]["emission"] = 0.1
+    content["meshes"] = {"quad": scenes.QUAD}
+    content["objects"] = [
+        {"mesh": "quad", "material": "grey", "to_world": [*scenes.IDENTITY[:2], [0, 0, 1, 2.5], [0, 0, 0, 1]]}
+    ]
+    content["lights"] = [{"type": "point", "position": [0, -5, 5], "intensity": 9}]
+    options = ("--spp", 4, "--aov", "mist,object_matte,light_group_2")
+    before = scenes.render(tmp_path, content, *options)
+    for path, value, channel in PASSES:
+        after = scenes.render(tmp_path, changed(content, path, value), *options)
+        assert not np.array_equal(before.channels[channel], after.channels[channel]), path

@@ -5,7 +5,7 @@
 
 namespace glimmer {
 
-KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares, uint32_t passes) {
+KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares, uint64_t passes) {
     KernelFeatures f;
     f.medium = scene.medium.has_value();
     f.bounded_media = f.medium && scene.medium->bounded();

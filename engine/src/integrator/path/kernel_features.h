@@ -64,7 +64,7 @@ static_assert(sizeof(KernelFeatures) == kFeatureTexts.size(), "a feature without
 
 /// The features that a scene needs. shares: it has light vertices (plan_light_vertex_cache). passes: bit set of 1 <<
 /// glimmer_pass.
-KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares, uint32_t passes = 0);
+KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares, uint64_t passes = 0);
 
 /// What such a scene has no use for, in lines for the user.
 std::vector<std::string> left_out(const KernelFeatures &needed);

@@ -71,7 +71,8 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
             }
             weight = balance(choice.probability * at.pdf * light->pdf, p_distance * p_phase);
         }
-        add_scattered(state, PathClass::medium, state.beta * arriving * (weight / probability));
+        add_scattered(state, PathClass::medium, state.beta * arriving * (weight / probability),
+                      group_of(choice.index, *light));
     }
 }
 
@@ -178,7 +179,8 @@ void PathSample<F>::sample_infinite_lights(const State &state, const Vec3f &x, c
             continue;
         const float weight = light->delta ? 1 : balance(share * light->pdf, p_phase * survival);
         add_scattered(state, PathClass::medium,
-                      state.beta * unshadowed * visibility(x, *light, state.ray.time) * weight);
+                      state.beta * unshadowed * visibility(x, *light, state.ray.time) * weight,
+                      group_of(lights[picked], *light));
     }
 }
 
@@ -200,7 +202,7 @@ void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, c
     if (is_black(arriving))
         return;
     const float weight = light->delta || !by_chance ? 1 : balance(choice.probability * light->pdf, p_phase);
-    add_scattered(state, PathClass::medium, state.beta * arriving * weight);
+    add_scattered(state, PathClass::medium, state.beta * arriving * weight, group_of(choice.index, *light));
 }
 
 } // namespace glimmer

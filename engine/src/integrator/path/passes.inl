@@ -3,7 +3,7 @@
 // that a mirror or glass, and what the camera sees there. Their sum is the sample's radiance.
 #pragma once
 
-#include "bsdf/lobe_albedo.h"
+#include "bsdf/lobe_sums.h"
 #include "integrator/path/path_sample.h"
 #include "shading/shading_point.h"
 
@@ -28,15 +28,22 @@ void PathSample<F>::pass_light(const PassState &first, const Rgb &value, bool di
 }
 
 template <KernelFeatures F>
-void PathSample<F>::pass_met(const State &state, const Rgb &value, bool is_environment) {
-    if (state.depth > 0)
+void PathSample<F>::pass_met(const State &state, const Rgb &value, uint8_t group, bool is_environment) {
+    if (trace_.passes && group)
+        trace_.passes->light_groups[group - 1] += value;
+    // Through glass that counts as clear, the environment is seen as if there were none.
+    const bool seen = state.depth == 0 || (is_environment && leaves_empty(state));
+    if (!seen)
         return pass_light(state.passes, value, state.depth == 1);
     if (trace_.passes)
         (is_environment ? trace_.passes->environment : trace_.passes->emit) += value;
 }
 
 template <KernelFeatures F>
-void PathSample<F>::pass_scattered(const State &state, PathClass vertex, const Rgb &value, const PassState *shares) {
+void PathSample<F>::pass_scattered(const State &state, PathClass vertex, const Rgb &value, uint8_t group,
+                                   const PassState *shares) {
+    if (trace_.passes && group)
+        trace_.passes->light_groups[group - 1] += value;
     if (state.depth > 0)
         return pass_light(state.passes, value, false);
     PassState first = shares ? *shares : PassState();
@@ -47,14 +54,14 @@ void PathSample<F>::pass_scattered(const State &state, PathClass vertex, const R
 template <KernelFeatures F>
 PassState PathSample<F>::shares_of(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi, RayMask visible) {
     const auto sees = [&](RayKind kind) { return (visible & mask_of(kind)) != 0; };
-    const Rgb diffuse = sees(RayKind::diffuse) ? eval(bsdf, wo, wi, true, false, false) : Rgb();
-    const Rgb glossy = sees(RayKind::glossy) ? eval(bsdf, wo, wi, false, true, false) : Rgb();
-    const Rgb transmitted = sees(RayKind::transmission) ? eval(bsdf, wo, wi, false, false, true) : Rgb();
+    const LobeSums f = eval_by_kind(bsdf, wo, wi, [&](const Lobe &lobe) {
+        return sees(wi.z < 0 ? RayKind::transmission : is_diffuse(lobe) ? RayKind::diffuse : RayKind::glossy);
+    });
     PassState shares;
     for (int c = 0; c < 3; ++c)
-        if (const float sum = diffuse[c] + glossy[c] + transmitted[c]; sum > 0) {
-            shares.diffuse[c] = diffuse[c] / sum;
-            shares.glossy[c] = glossy[c] / sum;
+        if (const float sum = f.diffuse[c] + f.glossy[c] + f.transmission[c]; sum > 0) {
+            shares.diffuse[c] = f.diffuse[c] / sum;
+            shares.glossy[c] = f.glossy[c] / sum;
         }
     return shares;
 }
@@ -78,12 +85,16 @@ void PathSample<F>::pass_first_surface(const Interaction &surface, ShutterTime t
         return;
     out->position = Vec3f(Vec3d(surface.position) + scene().origin);
     const View view{surface.shading_normal, 0, time};
-    const Vec2f uv = ShadingPoint(*scene().accel, scene().origin, surface, view).map_uv();
-    out->uv = {uv.x, uv.y, 1};
+    const ShadingPoint point(*scene().accel, scene().origin, surface, view);
+    if (point.is_sphere() || !point.mesh().uvs.empty() || !point.mesh().attributes.empty()) {
+        const Vec2f uv = point.map_uv();
+        out->uv = {uv.x, uv.y, 1};
+    }
 }
 
 template <KernelFeatures F>
-void PathSample<F>::pass_surface(const State &state, const Interaction &surface, const Shading &shading) {
+void PathSample<F>::pass_surface(const State &state, const Hit &hit, const Interaction &surface,
+                                 const Shading &shading) {
     PassSample *out = trace_.passes;
     if (!out)
         return;
@@ -93,6 +104,8 @@ void PathSample<F>::pass_surface(const State &state, const Interaction &surface,
                        : behind > 0        ? 1.0f
                                            : 0.0f;
     const float opaque = mean_component(state.beta * (Rgb(1) - shading.transparency));
+    if (opaque > 0 && out->cover_count < out->covers.size())
+        out->covers[out->cover_count++] = {scene().passes_of(hit).matte, surface.material + 1, opaque};
     out->clearness += (1 - std::pow(mist, film.mist_falloff)) * opaque;
 
     const auto oriented_surface = orient(state, surface, shading);
@@ -100,7 +113,7 @@ void PathSample<F>::pass_surface(const State &state, const Interaction &surface,
         return;
     Bsdf bsdf = shading.bsdf;
     bsdf.eta = oriented_surface->eta;
-    const LobeAlbedo color = lobe_albedo(bsdf, oriented_surface->wo);
+    const LobeSums color = albedo_by_kind(bsdf, oriented_surface->wo);
     out->diffuse_color += state.beta * color.diffuse;
     out->glossy_color += state.beta * color.glossy;
     out->transmission_color += state.beta * color.transmission;

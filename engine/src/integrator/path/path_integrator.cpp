@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/path/path_integrator.h"
 
+#include "film/passes.h"
 #include "integrator/dielectrics_at.h"
 #include "integrator/direct/emitter_rays.h"
 #include "integrator/direct/tuning.h"
@@ -13,13 +14,16 @@ namespace {
 
 class PathIntegrator final : public Integrator {
   public:
-    PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &flags, uint32_t passes,
+    PathIntegrator(const Scene &scene, const DepthLimits &limits, const EstimatorFlags &flags, uint64_t passes,
                    bool full_kernel)
         : scene_(scene), limits_(limits), flags_(flags),
           around_camera_(dielectrics_at(scene, scene.camera.start_region().center, kMidShutter, RayKind::camera)),
-          emitter_rays_(scene,
-                        around_camera_.empty() && !rays_start_apart() ? tuning::kEmitterRays * flags.emitter_rays : 0) {
-        if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
+          emitter_rays_(scene, around_camera_.empty() && !rays_start_apart()
+                                   ? tuning::kEmitterRays * (adds_emitter_rays(flags, passes))
+                                   : 0) {
+        if (passes & kLightGroupPasses) // light vertices have no group
+            light_vertices_.left_out = "light groups: no light vertices, light in fog comes by paths alone";
+        else if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
             light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_);
         plan_ = plan_splitting(scene, flags);
         plan_.pixel_ris = plan_.pixel_ris && around_camera_.empty() && !rays_start_apart() && limits.depth > 0;
@@ -84,6 +88,10 @@ class PathIntegrator final : public Integrator {
     }
 
   private:
+    /// Emitter rays bring light of no group, and where a film is transparent they would shine where alpha is 0.
+    bool adds_emitter_rays(const EstimatorFlags &flags, uint64_t passes) const {
+        return flags.emitter_rays && !(passes & kLightGroupPasses) && !scene_.film.transparent;
+    }
     /// Whether camera rays start at different places, between which there may be the wall of a dielectric.
     bool rays_start_apart() const {
         return scene_.has_dielectrics && (scene_.camera.start_region().radius > 0 || scene_.moves);
@@ -103,7 +111,7 @@ class PathIntegrator final : public Integrator {
 } // namespace
 
 std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
-                                                       const EstimatorFlags &flags, uint32_t passes, bool full_kernel) {
+                                                       const EstimatorFlags &flags, uint64_t passes, bool full_kernel) {
     return std::make_unique<PathIntegrator>(scene, limits, flags, passes, full_kernel);
 }
 

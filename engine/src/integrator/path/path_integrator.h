@@ -15,7 +15,7 @@ namespace glimmer {
 /// passes: bit set of 1 << glimmer_pass, what the film keeps. full_kernel: take the kernel with all features, not the
 /// smallest that serves; both give the same bits.
 std::unique_ptr<const Integrator> make_path_integrator(const Scene &scene, const DepthLimits &limits,
-                                                       const EstimatorFlags &flags, uint32_t passes = 0,
+                                                       const EstimatorFlags &flags, uint64_t passes = 0,
                                                        bool full_kernel = false);
 
 } // namespace glimmer

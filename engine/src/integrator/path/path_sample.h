@@ -105,29 +105,37 @@ class PathSample {
     }
 
     /// Adds emission that the segment met. is_environment: of what lies beyond everything.
-    void add_met(const State &state, const Rgb &value, bool is_environment = false) {
+    void add_met(const State &state, const Rgb &value, uint8_t group, bool is_environment = false) {
         if (!is_environment || !leaves_empty(state))
             aov_of_emission(state) += value;
         if constexpr (F.passes)
-            pass_met(state, value, is_environment);
+            pass_met(state, value, group, is_environment);
     }
     /// Adds light that a vertex on the segment or at its end scatters towards the camera, straight from a light.
-    void add_scattered(const State &state, PathClass vertex, const Rgb &value, const PassState *shares = nullptr) {
+    void add_scattered(const State &state, PathClass vertex, const Rgb &value, uint8_t group,
+                       const PassState *shares = nullptr) {
         aov_of_scattering(state, vertex) += value;
         if constexpr (F.passes)
-            pass_scattered(state, vertex, value, shares);
+            pass_scattered(state, vertex, value, group, shares);
     }
 
     // Passes of PassSample
 
-    void pass_met(const State &state, const Rgb &value, bool is_environment);
-    void pass_scattered(const State &state, PathClass vertex, const Rgb &value, const PassState *shares);
+    void pass_met(const State &state, const Rgb &value, uint8_t group, bool is_environment);
+    void pass_scattered(const State &state, PathClass vertex, const Rgb &value, uint8_t group, const PassState *shares);
+    /// The group of a light that was sampled.
+    uint8_t group_of(uint32_t light, const LightSample &sample) const {
+        if constexpr (F.passes)
+            return sample.group ? sample.group : scene().lights.flags(light).group;
+        else
+            return 0;
+    }
     /// Adds light to the passes of the vertex that scattered it last before the camera.
     void pass_light(const PassState &first, const Rgb &value, bool direct);
     /// What the first surface is, whatever it looks like.
     void pass_first_surface(const Interaction &surface, ShutterTime time);
     /// What a surface looks like that the camera sees, if only through others.
-    void pass_surface(const State &state, const Interaction &surface, const Shading &shading);
+    void pass_surface(const State &state, const Hit &hit, const Interaction &surface, const Shading &shading);
     /// Whether the picture is empty where the state's segment meets the environment.
     bool leaves_empty(const State &state) const {
         if constexpr (F.passes)
@@ -169,7 +177,7 @@ class PathSample {
     bool is_far_side(const State &state, const Hit &hit, const Interaction &surface) const;
     void add_lamps(const State &state, float end, const Medium *medium);
     void add_infinity(const State &state, const Medium *medium);
-    void add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium,
+    void add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium, uint8_t group,
                      bool is_environment = false);
     /// Whether the ray could meet a light; false only where it certainly does not.
     bool may_meet_light(const Ray &ray) const;

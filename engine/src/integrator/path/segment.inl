@@ -78,7 +78,7 @@ void PathSample<F>::follow(State &state) {
         state.rr_scale *= medium->least_absorbed(state.ray, end);
     if constexpr (F.passes)
         if (state.depth == 0)
-            pass_surface(state, *surface, shading);
+            pass_surface(state, *hit, *surface, shading);
     if (passes_through(state, *surface, shading, end, false)) {
         state.emission_mode = emission_mode;
         return push(state);
@@ -122,7 +122,7 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
             weight = emission_mis_weight(state, light, {state.passed_length() + hit.t, triangle, cosine});
         }
     }
-    add_emitted(state, emission * weight, hit.t, medium);
+    add_emitted(state, emission * weight, hit.t, medium, F.passes ? scene().passes_of(hit).light_group : uint8_t(0));
 }
 
 template <KernelFeatures F>
@@ -142,14 +142,15 @@ void PathSample<F>::add_lamps(const State &state, float end, const Medium *mediu
     for (uint32_t light : scene().lights.intersectable_lamps())
         if (sees_light(state, light))
             if (const auto lamp = intersect_lamp(scene().lights[light], ray))
-                add_emitted(state, lamp->radiance * emission_mis_weight(state, light, {lamp->t}), lamp->t, medium);
+                add_emitted(state, lamp->radiance * emission_mis_weight(state, light, {lamp->t}), lamp->t, medium,
+                            scene().lights.flags(light).group);
 }
 
 template <KernelFeatures F>
 void PathSample<F>::add_medium_emission(const State &state, float end, const Medium *medium) {
     const BoundedMedia *bounded = medium ? medium->bounded() : nullptr;
     if (bounded && bounded->emits() && state.emission_mode != EmissionMode::only) // no light sampling finds it
-        add_met(state, state.beta * bounded->emitted(state.ray, end));
+        add_met(state, state.beta * bounded->emitted(state.ray, end), 0);
 }
 
 template <KernelFeatures F>
@@ -162,14 +163,15 @@ void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
         const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction, state.ray_flags);
         if (!is_black(radiance))
             add_emitted(state, radiance * emission_mis_weight(state, light, {kInfinity}), kInfinity, medium,
+                        scene().lights.flags(light).group,
                         F.passes && std::holds_alternative<EnvironmentLight>(scene().lights[light]));
     }
 }
 
 template <KernelFeatures F>
 void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium,
-                                bool is_environment) {
-    add_met(state, state.beta * radiance * transmittance(medium, state.ray, distance), is_environment);
+                                uint8_t group, bool is_environment) {
+    add_met(state, state.beta * radiance * transmittance(medium, state.ray, distance), group, is_environment);
 }
 
 template <KernelFeatures F>

@@ -260,9 +260,11 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (is_black(value))
             continue;
         candidates[count] = {*light, value, value.r + value.g + value.b};
-        if constexpr (F.passes)
+        if constexpr (F.passes) {
+            candidates[count].light.group = group_of(choice.index, *light);
             if (state.depth == 0)
                 candidates[count].shares = shares_of(bsdf, wo, wi, light->visible);
+        }
         ++count;
     }
     float parts = 0;
@@ -279,9 +281,9 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (is_black(arriving))
             continue;
         if constexpr (F.passes)
-            add_scattered(state, PathClass::surface, state.beta * arriving * (1 / tested), &c.shares);
+            add_scattered(state, PathClass::surface, state.beta * arriving * (1 / tested), c.light.group, &c.shares);
         else
-            add_scattered(state, PathClass::surface, state.beta * arriving * (1 / tested));
+            add_scattered(state, PathClass::surface, state.beta * arriving * (1 / tested), 0);
     }
 }
 
