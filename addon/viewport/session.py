@@ -11,6 +11,7 @@ from __future__ import annotations
 import threading
 import time
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,6 +125,13 @@ def paste(canvas: Pixels, tile: Tile, pixels: Pixels) -> None:
     """canvas: (height, width, 4), bottom row first. pixels: (tile.height, tile.width, 3 or 4), top row first."""
     bottom = canvas.shape[0] - tile.y - tile.height
     canvas[bottom : bottom + tile.height, tile.x : tile.x + tile.width, : pixels.shape[2]] = pixels[::-1]
+
+
+def bands(height: int, most: int) -> list[tuple[int, int]]:
+    """The rows of a picture, begin and end, in even bands of at most so many."""
+    count = -(-height // most)
+    edges = [height * index // count for index in range(count + 1)]
+    return list(pairwise(edges))
 
 
 class Session:

@@ -60,7 +60,7 @@ class RenderedView:
     def wants_draw(self) -> bool:
         if self._is_dirty:
             return time.monotonic() >= self._read_again_at
-        return self.session is not None and self.session.has_news()
+        return self.session is not None and (self.session.has_news() or not self._picture.is_complete)
 
     def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         try:

@@ -146,6 +146,14 @@ def test_a_tile_goes_where_it_was_rendered() -> None:
     assert canvas[3, 1:3, :3].sum() == canvas.sum() == 6.0
 
 
+@pytest.mark.parametrize(("height", "most"), [(1, 1), (7, 3), (1080, 546), (1080, 1080), (1081, 1080)])
+def test_bands_are_even_and_leave_nothing_out(height: int, most: int) -> None:
+    found = sessions.bands(height, most)
+    assert [row for begin, end in found for row in range(begin, end)] == list(range(height))
+    sizes = [end - begin for begin, end in found]
+    assert max(sizes) <= most and max(sizes) - min(sizes) <= 1
+
+
 def test_a_border_is_cut_to_what_is_in_sight() -> None:
     assert border_crop(None, (100, 50)) is None
     assert border_crop((0.25, 0.5, 0.75, 2.0), (100, 50)) == (25, 0, 75, 25)
