@@ -64,6 +64,9 @@ class GLIMMER_PT_material_settings(_MaterialPanel, bpy.types.Panel):
         owner = material if hasattr(material, "displacement_method") else getattr(material, "cycles", None)  # 4.1
         if owner is not None:
             self.layout.prop(owner, "displacement_method", text="Displacement")
+        cycles = getattr(material, "cycles", None)
+        if hasattr(cycles, "use_bump_map_correction"):  # 4.4
+            self.layout.prop(cycles, "use_bump_map_correction")
 
 
 _CLASSES = (GLIMMER_PT_surface, GLIMMER_PT_volume, GLIMMER_PT_displacement, GLIMMER_PT_material_settings)
