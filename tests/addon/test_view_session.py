@@ -67,6 +67,14 @@ def test_a_coarse_picture_comes_first_and_then_the_full_one(session: sessions.Se
     assert session.is_resting() and not session.has_news()
 
 
+def test_a_transparent_film_is_empty_where_the_sky_is(session: sessions.Session) -> None:
+    session.show(scene(transparent=True))
+    wait_for(lambda: (frame := session.frame()) is not None and frame.scale == 1 and frame.progress.ended)
+    frame = session.frame()
+    assert frame is not None and frame.rgba.shape == (90, 160, 4)
+    assert not frame.rgba.any()
+
+
 def test_a_border_is_all_that_is_rendered(session: sessions.Session) -> None:
     session.show(scene(crop=(10, 20, 111, 80)))
     wait_for(lambda: (frame := session.frame()) is not None and frame.scale == 1 and frame.progress.ended)
