@@ -32,7 +32,6 @@ HIDDEN = {
 BORROWED = {
     "EEVEE_MATERIAL_PT_context_material",
     "EEVEE_MATERIAL_PT_viewport_settings",
-    "EEVEE_WORLD_PT_mist",
     "MATERIAL_PT_preview",
     "MATERIAL_PT_viewport",
 }

@@ -73,6 +73,16 @@ class GLIMMER_PT_world_light_group(_WorldPanel, bpy.types.Panel):
         self.layout.prop_search(context.world, "lightgroup", context.view_layer, "lightgroups", text="Light Group")
 
 
+class GLIMMER_PT_world_mist(_WorldPanel, bpy.types.Panel):
+    bl_label = "Mist Pass"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        for name in ("start", "depth", "falloff"):
+            self.layout.prop(context.world.mist_settings, name)
+
+
 def _has_volume(world: bpy.types.World) -> bool:
     output = world.node_tree.get_output_node("CYCLES") if world.use_nodes and world.node_tree is not None else None
     return output is not None and output.inputs["Volume"].is_linked
@@ -83,6 +93,7 @@ _CLASSES = (
     GLIMMER_PT_world_surface,
     GLIMMER_PT_world_volume,
     GLIMMER_PT_world_volume_nodes,
+    GLIMMER_PT_world_mist,
     GLIMMER_PT_world_light_group,
 )
 
