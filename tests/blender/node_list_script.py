@@ -42,7 +42,7 @@ def material_tree() -> Any:
 def main() -> None:
     out = Path(inside.words()[0])
     inside.enable()
-    from glimmer.export import material, nodes
+    from glimmer.export import fold, material, nodes
 
     counts = compared()
     tree = material_tree()
@@ -61,7 +61,7 @@ def main() -> None:
             known = name in material._SHADERS or name.startswith("ShaderNodeVolume") or name == "ShaderNodeBackground"
             state = "shader" if known else "told"
         else:
-            known = name in nodes._OPERATIONS or name in nodes._FOLDS or name.endswith("Displacement")
+            known = name in nodes._OPERATIONS or name in fold.FOLDS or name.endswith("Displacement")
             state = "value" if known else "told"
         found[name] = {"label": node.bl_label, "state": state, "cases": counts[name]}
     out.write_text(json.dumps(found))
