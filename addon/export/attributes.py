@@ -72,10 +72,8 @@ class AttributeReader:
         vertices = self._mesh.vertices
         rest = np.empty(3 * len(vertices), np.float32)
         vertices.foreach_get("undeformed_co", rest)
-        location = np.array(self._mesh.texspace_location, np.float64)
-        size = np.array(self._mesh.texspace_size, np.float64)
-        inverse = np.where(size != 0.0, 0.5 / np.where(size != 0.0, size, 1.0), 0.0)
-        return rest.reshape(-1, 3) * inverse - (location * inverse - 0.5)
+        scale, offset = texture_space(self._mesh)
+        return rest.reshape(-1, 3) * scale + offset
 
     def _islands(self) -> Floats:
         """(triangles, 1): a number of 0 to 1 that all triangles of a connected part share."""
@@ -131,6 +129,13 @@ class AttributeReader:
         return "corner", corner_tangents(
             positions.reshape(-1, 3)[vertices], normals.reshape(-1, 3)[self._corners], self._uv(layer)
         )
+
+
+def texture_space(mesh: bpy.types.Mesh) -> tuple[Floats, Floats]:
+    """(3,) each: generated coordinates are a place in the mesh times the first, plus the second."""
+    location, size = (np.array(getattr(mesh, f"texspace_{what}"), np.float64) for what in ("location", "size"))
+    inverse = np.where(size != 0.0, 0.5 / np.where(size != 0.0, size, 1.0), 0.0)
+    return inverse, 0.5 - location * inverse
 
 
 def island_roots(count: int, edges: list[list[int]]) -> list[int]:

@@ -9,8 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..scene.description import Attribute
+from .attributes import texture_space
 from .instance import Placed, Record, hash_pair
-from .translate.surface import INSTANCER_GENERATED, INSTANCER_PREFIX, INSTANCER_UV, OBJECT_PREFIX, PARTICLE_PREFIX
+from .translate.surface import (
+    INSTANCER_GENERATED,
+    INSTANCER_PREFIX,
+    INSTANCER_UV,
+    OBJECT_PREFIX,
+    PARTICLE_PREFIX,
+    VOLUME_OFFSET,
+    VOLUME_SCALE,
+)
 
 if TYPE_CHECKING:
     import bpy
@@ -45,6 +54,9 @@ def _rows(placed: Placed, name: str) -> list[tuple[float, ...]] | None:
         return [(0.0,) * 3 if r is None else tuple(0.5 * v - 0.5 for v in r.generated) for r in records]
     if name == INSTANCER_UV:
         return [(0.0,) * 3 if r is None else (*r.uv, 0.0) for r in records]
+    if name in (VOLUME_SCALE, VOLUME_OFFSET):
+        scale, offset = texture_space(placed.item.data)
+        return [tuple(scale if name == VOLUME_SCALE else offset)] * count
     return None
 
 

@@ -40,12 +40,14 @@ from .nodes import Nodes
 from .principled import principled
 from .sockets import Input, Source
 from .translate.image import Images
-from .translate.surface import normal_input, tangent_input
+from .translate.surface import VOLUME_DENSITY, attribute, normal_input, tangent_input
 from .translate.values import Number, Triple, clamped, clamped_color, math, op, scaled, squared, triple
 from .volume import volume_medium
 
 if TYPE_CHECKING:
     import bpy
+
+    from .grids import Grid
 
 # Below this the engine's GGX is a mirror; its mirror keeps the colour at every angle, as Blender's does.
 MIRROR_ALPHA = 1e-4
@@ -102,6 +104,20 @@ def export_material(
     return NamedMaterial(material.name_full, named, material.pass_index, program, normal, volume)
 
 
+def export_volume(
+    material: bpy.types.Material | None,
+    grids: dict[str, Grid],
+    where: str,
+    version: tuple[int, ...],
+    notices: Notices,
+    images: Images,
+) -> Medium | None:
+    """What a volume object of these grids is filled with."""
+    if material is None or not material.use_nodes or material.node_tree is None:
+        return None
+    return _Shaders(material, where, version, notices, images).volume(grids)
+
+
 def viewport_surface(material: bpy.types.Material) -> Surface:
     """The material without nodes."""
     color = _rgb(material.diffuse_color)
@@ -152,9 +168,18 @@ class _Shaders:
             return Lambert(BLACK)
         return self.shader(surface)
 
-    def volume(self) -> Medium | None:
-        item = self.nodes.surface_of_output("Volume")
-        return None if item is None else volume_medium(self.nodes, item)
+    def volume(self, grids: dict[str, Grid] | None = None) -> Medium | None:
+        """grids: of a volume object, which is filled with it by them."""
+        nodes = Nodes(self.nodes.tree, self.where, self.notices, self.nodes.images)
+        nodes.material_index = self.nodes.material_index
+        nodes.constants_only = self.nodes.constants_only
+        nodes.in_volume = True
+        item = nodes.surface_of_output("Volume")
+        if grids is None:
+            return None if item is None else volume_medium(nodes, item)
+        nodes.grids = grids
+        scale = op("separate", attribute(nodes, VOLUME_DENSITY), modes=("x",))
+        return None if item is None else volume_medium(nodes, item, scale)
 
     def shader(self, item: Input) -> Material:
         source = self.nodes.source(item)

@@ -25,6 +25,8 @@ from .translate.values import Number, Triple, Value, converted, number, triple
 if TYPE_CHECKING:
     import bpy
 
+    from .grids import Grid
+
 
 def unknown_mode(value: Value) -> str | None:
     """A mode of an operation that the engine does not have: a newer Blender's nodes may know more than we do."""
@@ -57,6 +59,8 @@ class Nodes:
         self.version = blender_version()
         self.frame = self.images.frame  # of the scene
         self.is_sky = False  # the tree is a world's
+        self.in_volume = False  # it is asked about points within a body
+        self.grids: dict[str, Grid] = {}  # of that body, a volume object
         self.sky_sun: SkySun | None = None  # of a Sky Texture that was met
         self.material_index = 0  # Blender's pass index
         self.constants_only = False  # nothing may vary
@@ -358,6 +362,7 @@ _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeBump": surface.bump,
     "ShaderNodeWireframe": surface.wireframe,
     "ShaderNodeParticleInfo": surface.particle_info,
+    "ShaderNodeVolumeInfo": surface.volume_info,
     "ShaderNodeWavelength": color_nodes.wavelength,
     "ShaderNodeNormalMap": surface.normal_map,
 }

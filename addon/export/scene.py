@@ -24,17 +24,19 @@ from ..scene.description import (
     Mesh,
     Mix,
     NamedMaterial,
+    Null,
     Object,
     RenderSettings,
     SceneDescription,
     Spheres,
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
+from .grids import NO_READER, NoGridsError, box_of, openvdb, read_grids
 from .groups import with_groups
 from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
 from .instance_attributes import instance_attributes, property_of
 from .light import export_lamp
-from .material import export_material
+from .material import export_material, export_volume
 from .mesh import export_mesh, flattened
 from .motion import (
     Motion,
@@ -52,7 +54,7 @@ from .points import point_cloud
 from .sphere import NotASphereError, read_sphere
 from .strands import Strands, curve_strands, particle_strands, tubes
 from .translate.image import Images
-from .translate.surface import ACTIVE_UV, named
+from .translate.surface import ACTIVE_UV, VOLUME_DENSITY, named
 from .visibility import note_differences
 from .world import export_world, warn_of_black_sky
 
@@ -60,7 +62,7 @@ if TYPE_CHECKING:
     import bpy
 
 # Kinds that show something in Cycles and nothing here.
-UNSUPPORTED = {"VOLUME", "GPENCIL", "GREASEPENCIL"}
+UNSUPPORTED = {"GPENCIL", "GREASEPENCIL"}
 
 
 HELD_STILL = "which is not supported; it stands where it is in the middle"
@@ -172,6 +174,12 @@ class _Source:
             collector.add(placed)
         environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
         lights = tuple(collector.lights)
+        if medium is not None and medium.falloff is not None and collector.has_interiors():
+            notices.add(
+                f"world '{scene.world.name}'",
+                "haze that thins out with height is not supported beside volumes of objects; it is left out",
+            )
+            medium = None
         something_shines = any(shines(item.material) for item in collector.materials)
         warn_of_black_sky(scene.world, environment, lights, medium, notices, something_shines)
         described = SceneDescription(
@@ -261,6 +269,7 @@ class _Collector:
         owners = (depsgraph.view_layer_eval, scene, scene.world)
         self.images = Images(scene.frame_current, lambda name: property_of(owners, name))
         self._meshes: dict[tuple[int, int, frozenset[str]], Mesh | None] = {}
+        self._null: int | None = None
 
     def add(self, placed: Placed) -> None:
         kind = placed.item.type
@@ -275,6 +284,8 @@ class _Collector:
             self._add_curves(placed)
         elif kind == "POINTCLOUD":
             self._add_points(placed)
+        elif kind == "VOLUME":
+            self._add_volume(placed)
         elif kind == "LIGHT":
             if self._motion(placed) is not None:
                 self._notices.add(place(placed.item.name), f"a lamp that moves while the shutter is open, {HELD_STILL}")
@@ -455,6 +466,46 @@ class _Collector:
             )
         )
 
+    def _add_volume(self, placed: Placed) -> None:
+        """A box about the grids of a volume object, filled by them."""
+        item, where = placed.item, place(placed.item.name)
+        material = self._override or _slots(item)[0]
+        if not self.reads:
+            if openvdb() is None:
+                self._notices.add(where, f"its volume is left out, since {NO_READER}")
+            return
+        try:
+            grids = read_grids(item.data)
+        except NoGridsError as why:
+            self._notices.add(where, f"its volume is left out, since {why}")
+            return
+        if not grids or material is None:
+            return
+        medium = export_volume(
+            material, grids, place(item.name, material.name), self._version, self._notices, self.images
+        )
+        if medium is None:
+            return
+        if self._motion(placed) is not None:
+            self._notices.add(where, f"moves while the shutter is open, {HELD_STILL}")
+        matrices = self._matrices(placed)
+        factors = np.ones(len(matrices))
+        if item.data.render.space == "OBJECT":  # it stays as opaque as it is in a size of 1
+            factors = 1.0 / np.maximum(np.linalg.norm(matrices[:, :3, :3].sum(axis=2), axis=1) / 3.0**0.5, 1e-30)
+        attributes = (Attribute(VOLUME_DENSITY, "instance", factors.astype(np.float32)[:, None]),)
+        part = self._part(placed, box_of(grids, item.name), (self._null_material(),))
+        self._add_placed(replace(part, attributes=attributes, interior=medium), matrices, placed.randoms())
+
+    def _null_material(self) -> int:
+        """The number of one that is not there."""
+        if self._null is None:
+            self._null = len(self.materials)
+            self.materials.append(NamedMaterial("nothing", Null()))
+        return self._null
+
+    def has_interiors(self) -> bool:
+        return any(item.interior for item in self.objects) or any(item.interior for item in self.spheres)
+
     def _interior(self, item: bpy.types.Object, materials: tuple[int, ...]) -> Medium | None:
         """What the object is filled with."""
         media = [self.materials[number].volume for number in dict.fromkeys(materials)]
@@ -483,7 +534,8 @@ class _Collector:
             )
             return False
         material = item.material_slots[0].material if item.material_slots else None
-        if self.materials[self._material(material, item.name)].program is not None:
+        own = self.materials[self._material(material, item.name)]
+        if own.program is not None or (own.volume is not None and own.volume.program is not None):
             # An analytic sphere has no coordinates that textures could go by.
             self._notices.add(
                 place(item.name),
@@ -515,7 +567,9 @@ class _Collector:
 
     def _attributes(self, materials: tuple[int, ...]) -> frozenset[str]:
         """The names that the programs of materials ask a mesh for."""
-        programs = (self.materials[number].program for number in materials)
+        programs = [self.materials[number].program for number in materials]
+        volumes = (self.materials[number].volume for number in materials)
+        programs += [volume.program for volume in volumes if volume is not None]
         return frozenset(name for program in programs if program is not None for name in program.attributes)
 
     def _mesh(self, item: bpy.types.Object, slot_count: int, attributes: frozenset[str]) -> Mesh | None:

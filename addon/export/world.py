@@ -21,7 +21,7 @@ from .translate.values import Triple, added, clamped
 from .translate.values import lerp as blended
 from .translate.values import scaled as scaled_by
 from .visibility import world_rays
-from .volume import volume_medium
+from .volume import world_medium
 
 if TYPE_CHECKING:
     import bpy
@@ -56,7 +56,7 @@ def export_world(
     if surface is not None:
         environment = _sky_program(nodes, surface) or _Background(nodes, world).shader(surface)
     environment = replace(environment, rays=rays)
-    return environment, None if volume is None else volume_medium(nodes, volume)
+    return environment, None if volume is None else world_medium(nodes, volume)
 
 
 def warn_of_black_sky(
@@ -73,7 +73,9 @@ def warn_of_black_sky(
     """
     if something_shines or any(not isinstance(lamp, SunLight) for lamp in lights):
         return
-    if medium is None or not any(a + s > 0.0 for a, s in zip(medium.sigma_a, medium.sigma_s, strict=True)):
+    if medium is None or medium.falloff is not None:
+        return
+    if not any(a + s > 0.0 for a, s in zip(*medium.constant_sigmas(), strict=True)):
         return
     unseen = ["its background"] if any(environment.radiance) else []
     unseen += [f"sun '{lamp.name}'" for lamp in lights if isinstance(lamp, SunLight)]

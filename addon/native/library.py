@@ -53,6 +53,7 @@ SIGNATURES: dict[str, tuple[object, list[object]]] = {
     "glimmer_scene_set_environment_visible": (_RESULT, [c_void_p, c_uint32]),
     "glimmer_scene_set_environment_light_group": (_RESULT, [c_void_p, c_uint32]),
     "glimmer_scene_set_medium": (_RESULT, [c_void_p, POINTER(c_double), POINTER(c_double), c_double]),
+    "glimmer_scene_set_medium_falloff": (_RESULT, [c_void_p, c_double, c_double]),
     "glimmer_scene_set_camera": (_RESULT, [c_void_p, POINTER(structs.CameraDesc)]),
     "glimmer_scene_set_film": (_RESULT, [c_void_p, POINTER(structs.FilmDesc)]),
     "glimmer_scene_commit": (_RESULT, [c_void_p, c_uint32]),

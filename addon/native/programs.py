@@ -68,6 +68,7 @@ class ProgramAdder:
         self._scene = scene
         self._rows = library.op_rows
         self._textures: dict[bytes, c_void_p] = {}
+        self._numbers: dict[Program, int] = {}
 
     def add(self, name: str, program: Program) -> int:
         """The engine's number of it."""
@@ -79,6 +80,12 @@ class ProgramAdder:
         self._library.call("glimmer_scene_add_program", self._scene, byref(desc), byref(number))
         del keep
         return number.value
+
+    def add_once(self, name: str, program: Program) -> int:
+        """The same of one that several things may have."""
+        if program not in self._numbers:
+            self._numbers[program] = self.add(name, program)
+        return self._numbers[program]
 
     def bind(self, material: int, key: str, program: int, output: int) -> None:
         self._library.call("glimmer_scene_bind", self._scene, material, key.encode(), program, output)

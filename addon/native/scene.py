@@ -109,19 +109,22 @@ class NativeScene:
         try:
             adder = _MaterialAdder(self.library, self.handle, programs)
             materials = self.material_numbers = adder.add_all(scene.materials)
+            for item in scene.objects:
+                self._add_object(item, materials, meshes, programs)
+            for spheres in scene.spheres:
+                self._add_spheres(spheres, materials, programs)
         finally:
             programs.close()
-        for item in scene.objects:
-            self._add_object(item, materials, meshes)
-        for spheres in scene.spheres:
-            self._add_spheres(spheres, materials)
         for lamp in scene.lights:
             self._add_lamp(lamp)
         self._set_environment(scene.environment)
         if scene.medium is not None:
             medium = scene.medium
-            sigma_a, sigma_s = (c_double * 3)(*medium.sigma_a), (c_double * 3)(*medium.sigma_s)
+            sigma_a, sigma_s = ((c_double * 3)(*sigma) for sigma in medium.constant_sigmas())
             self.library.call("glimmer_scene_set_medium", self.handle, sigma_a, sigma_s, medium.g)
+            if medium.falloff is not None:
+                height, scale_height = medium.falloff.height, medium.falloff.scale_height
+                self.library.call("glimmer_scene_set_medium_falloff", self.handle, height, scale_height)
 
     def _set_film(self, film: d.Film) -> None:
         desc = self.library.init(structs.FilmDesc)
@@ -153,7 +156,7 @@ class NativeScene:
             desc.motion_count, desc.motion = len(motion), _pointer(motion)
         self.library.call("glimmer_scene_set_camera", self.handle, byref(desc))
 
-    def _add_object(self, item: d.Object, materials: list[int], meshes: MeshCache) -> None:
+    def _add_object(self, item: d.Object, materials: list[int], meshes: MeshCache, programs: ProgramAdder) -> None:
         desc = self.library.init(structs.ObjectDesc)
         numbers = (c_uint32 * len(item.materials))(*(materials[i] for i in item.materials))
         desc.name = item.name.encode()
@@ -179,12 +182,12 @@ class NativeScene:
             desc.motion_count, desc.motion = len(motion), _pointer(motion)
         attributes, keep = attribute_structs(item.attributes)
         desc.attribute_count, desc.attributes = len(attributes), ctypes.addressof(attributes)
-        interior = self._interior(item.interior)
+        interior, bindings = self._interior(item.interior, programs)
         desc.interior = None if interior is None else ctypes.addressof(interior)
         self.library.call("glimmer_scene_add_object", self.handle, byref(desc))
-        del keep
+        del keep, bindings
 
-    def _add_spheres(self, spheres: d.Spheres, materials: list[int]) -> None:
+    def _add_spheres(self, spheres: d.Spheres, materials: list[int], programs: ProgramAdder) -> None:
         desc = self.library.init(structs.SpheresDesc)
         centers = np.ascontiguousarray(spheres.centers, np.float64)
         radii = np.ascontiguousarray(spheres.radii, np.float64)
@@ -195,18 +198,27 @@ class NativeScene:
         desc.object_index = spheres.object_index
         desc.visible, desc.holdout = int(spheres.rays), int(spheres.is_holdout)
         desc.matte, desc.light_group = spheres.matte, spheres.light_group
-        interior = self._interior(spheres.interior)
+        interior, bindings = self._interior(spheres.interior, programs)
         desc.interior = None if interior is None else ctypes.addressof(interior)
         self.library.call("glimmer_scene_add_spheres", self.handle, byref(desc))
+        del bindings
 
-    def _interior(self, medium: d.Medium | None) -> Any:
-        """The struct, which must outlive the call that it is for."""
+    def _interior(self, medium: d.Medium | None, programs: ProgramAdder) -> tuple[Any, Any]:
+        """The struct, and what it refers to; both must outlive the call that they are for."""
         if medium is None:
-            return None
+            return None, None
         desc = self.library.init(structs.MediumDesc)
-        desc.sigma_a, desc.sigma_s, desc.g = medium.sigma_a, medium.sigma_s, medium.g
-        desc.emission = medium.emission
-        return desc
+        outputs = medium.outputs()
+        for key in ("sigma_a", "sigma_s", "g", "emission"):
+            if key not in outputs:
+                setattr(desc, key, getattr(medium, key))
+        bindings = (structs.MediumBinding * len(outputs))()
+        if medium.program is not None:
+            number = programs.add_once("medium", medium.program)
+            for binding, (key, output) in zip(bindings, outputs.items(), strict=True):
+                binding.key, binding.program, binding.output = key.encode(), number, output.index
+        desc.binding_count, desc.bindings = len(bindings), ctypes.addressof(bindings)
+        return desc, bindings
 
     def _add_lamp(self, lamp: d.Lamp) -> None:
         desc = self.library.init(structs.LightDesc)

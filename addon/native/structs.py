@@ -174,6 +174,10 @@ class MaterialDesc(ctypes.Structure):
     ]
 
 
+class MediumBinding(ctypes.Structure):
+    _fields_ = [("key", c_char_p), ("program", c_uint32), ("output", c_uint32)]
+
+
 class MediumDesc(ctypes.Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -181,6 +185,8 @@ class MediumDesc(ctypes.Structure):
         ("sigma_s", c_double * 3),
         ("g", c_double),
         ("emission", c_double * 3),
+        ("binding_count", c_size_t),
+        ("bindings", c_void_p),
     ]
 
 

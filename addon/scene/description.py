@@ -267,11 +267,31 @@ class NamedMaterial:
 
 
 @dataclass(frozen=True)
+class Falloff:
+    """A medium's coefficients times e^(-(z - height) / scale_height)."""
+
+    height: float
+    scale_height: float
+
+
+@dataclass(frozen=True)
 class Medium:
-    sigma_a: Rgb
-    sigma_s: Rgb
-    g: float = 0.0
-    emission: Rgb = BLACK  # radiance that a length adds; of a closed surface's medium alone
+    sigma_a: Rgb | Output
+    sigma_s: Rgb | Output
+    g: float | Output = 0.0
+    emission: Rgb | Output = BLACK  # radiance that a length adds; of a closed surface's medium alone
+    program: Program | None = None  # what of it varies from place to place; of a closed surface's medium alone
+    falloff: Falloff | None = None  # with height; of the medium that fills all space alone
+
+    def constant_sigmas(self) -> tuple[Rgb, Rgb]:
+        """sigma_a and sigma_s of a medium that is the same everywhere."""
+        assert not isinstance(self.sigma_a, Output) and not isinstance(self.sigma_s, Output)
+        return self.sigma_a, self.sigma_s
+
+    def outputs(self) -> dict[str, Output]:
+        """What the program gives, by its key."""
+        values = {"sigma_a": self.sigma_a, "sigma_s": self.sigma_s, "g": self.g, "emission": self.emission}
+        return {key: value for key, value in values.items() if isinstance(value, Output)}
 
 
 # ---- Geometry -----------------------------------------------------------------------------------------------------

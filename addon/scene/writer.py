@@ -48,6 +48,7 @@ class _Writer:
         self._varies: list[bool] = []  # whether a material has a program, which may ask for numbers of its object
         self._meshes: Json = {}
         self._programs: Json = {}
+        self._media: dict[Program, str] = {}  # the names of their programs
         self._textures: Json = {}
         self._texture_names: dict[bytes, str] = {}
         self._arrays = 0
@@ -170,7 +171,7 @@ class _Writer:
         if item.object_index:
             result["index"] = item.object_index
         if item.interior is not None:
-            result["interior"] = _interior(item.interior)
+            result["interior"] = self._interior(item.interior)
         return {**result, **_visibility(item)}
 
     def _spheres(self, spheres: d.Spheres) -> Json:
@@ -183,8 +184,19 @@ class _Writer:
         if spheres.object_index:
             result["index"] = spheres.object_index
         if spheres.interior is not None:
-            result["interior"] = _interior(spheres.interior)
+            result["interior"] = self._interior(spheres.interior)
         return {**result, **_visibility(spheres)}
+
+    def _interior(self, medium: d.Medium) -> Json:
+        program = None
+        if medium.program is not None:
+            if medium.program not in self._media:
+                self._media[medium.program] = self._program(f"medium {len(self._media)}", medium.program)
+            program = self._media[medium.program]
+        values = {"sigma_a": medium.sigma_a, "sigma_s": medium.sigma_s, "g": medium.g}
+        if medium.emission != d.BLACK:
+            values["emission"] = medium.emission
+        return {key: _parameter(value, program) for key, value in values.items()}
 
     def _environment(self, environment: d.Environment) -> Json:
         visible = _visible(environment.rays, d.EVERY_RAY)
@@ -233,12 +245,10 @@ def _unique(names: list[str]) -> list[str]:
 
 
 def _medium(medium: d.Medium) -> Json:
-    return {"sigma_a": list(medium.sigma_a), "sigma_s": list(medium.sigma_s), "g": medium.g}
-
-
-def _interior(medium: d.Medium) -> Json:
-    emission = {"emission": list(medium.emission)} if any(medium.emission) else {}
-    return {**_medium(medium), **emission}
+    result = {key: _parameter(getattr(medium, key), None) for key in ("sigma_a", "sigma_s", "g")}
+    if medium.falloff is not None:
+        result["height"], result["scale_height"] = medium.falloff.height, medium.falloff.scale_height
+    return result
 
 
 def _film(film: d.Film) -> Json:

@@ -260,12 +260,22 @@ typedef enum glimmer_ray {
     GLIMMER_RAY_ALL = 63
 } glimmer_ray;
 
-/* What a closed surface is filled with: homogeneous. Per channel and length; g: Henyey-Greenstein, -1 < g < 1. */
+/* A coefficient of a medium that an output of a program gives, in place of the value in the description. The program is
+ * evaluated at points within the surface: positions, object_position, object_location, the camera's coordinates and
+ * attributes of instances are known there; what is asked about a surface is 0. What is below 0 is cut. */
+typedef struct glimmer_medium_binding {
+    const char *key; /* sigma_a, sigma_s or emission: a vector; g: a number */
+    uint32_t program, output;
+} glimmer_medium_binding;
+
+/* What a closed surface is filled with. Per channel and length; g: Henyey-Greenstein, -1 < g < 1. */
 typedef struct glimmer_medium_desc {
     size_t struct_size;
     double sigma_a[3], sigma_s[3]; /* absorption and scattering, >= 0 */
     double g;
-    double emission[3]; /* radiance that a length adds, >= 0 */
+    double emission[3];                     /* radiance that a length adds, >= 0 */
+    size_t binding_count;                   /* up to 4, each of another key; default 0: homogeneous */
+    const glimmer_medium_binding *bindings; /* (binding_count) */
 } glimmer_medium_desc;
 
 GLIMMER_API void glimmer_medium_init(glimmer_medium_desc *desc);
@@ -374,6 +384,11 @@ GLIMMER_API glimmer_result glimmer_scene_set_environment_light_group(glimmer_sce
 /* Homogeneous, fills all space outside glass. sigma >= 0 per channel; g: Henyey-Greenstein, -1 < g < 1. */
 GLIMMER_API glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3],
                                                     const double sigma_s[3], double g);
+
+/* From now on the medium that fills all space thins out with height, along +z: it is as glimmer_scene_set_medium says
+ * at z = height, times exp(-(z - height) / scale_height) elsewhere. scale_height > 0. Lights infinitely far away shine
+ * through it. Not together with media within surfaces. */
+GLIMMER_API glimmer_result glimmer_scene_set_medium_falloff(glimmer_scene *scene, double height, double scale_height);
 
 typedef enum glimmer_camera_type { GLIMMER_PERSPECTIVE = 0, GLIMMER_ORTHOGRAPHIC = 1 } glimmer_camera_type;
 

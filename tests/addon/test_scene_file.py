@@ -150,6 +150,19 @@ def varying() -> d.SceneDescription:
 
 
 HAZE = d.Medium((0.1, 0.2, 0.0), (0.3, 0.5, 0.1), -0.2, emission=(0.0, 0.1, 0.3))
+
+
+def varying_haze() -> d.Medium:
+    """By the place in its body, and by voxels."""
+    place = Op("geometry", (1.0,), ("object_position", "center"))
+    voxels = Texture("voxels", np.random.default_rng(6).random((12, 2, 1), np.float32))
+    density = Op("grid", (place, (2.0, 3.0, 4.0)), ("linear",), voxels)
+    g = Op("separate", (place,), ("x",))
+    found, program = programmed(d.Medium((0.1, 0.2, 0.0), density, g, emission=place))  # type: ignore[arg-type]
+    assert isinstance(found, d.Medium)
+    return replace(found, program=program)
+
+
 VARIANTS = {
     "hidden from some": hidden_from_some(),
     "plain": SCENE,
@@ -167,6 +180,12 @@ VARIANTS = {
         SCENE,
         objects=(*SCENE.objects[:2], replace(SCENE.objects[2], interior=HAZE)),
         spheres=(*SCENE.spheres[:-1], replace(SCENE.spheres[-1], interior=replace(HAZE, emission=d.BLACK))),
+    ),
+    "varying interiors": replace(
+        SCENE, objects=(*SCENE.objects[:2], replace(SCENE.objects[2], interior=varying_haze()))
+    ),
+    "haze by height": replace(
+        SCENE, medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4, falloff=d.Falloff(1, 3))
     ),
     "empty": replace(SCENE, objects=(), spheres=(), lights=()),
 }

@@ -223,6 +223,37 @@ def shining_volume(kind: str = "world") -> Build:
     return b
 
 
+def height_haze(kind: str = "world") -> Build:
+    """Density .02 at a height of 3, thinner by e every 4, by the world's position: e^((3 - z) / 4) times."""
+    b = Build(kind)
+    apart = b.node("ShaderNodeSeparateXYZ")
+    b.link(b.node("ShaderNodeNewGeometry").outputs["Position"], apart.inputs[0])
+    below, over, power, density = (b.node("ShaderNodeMath") for _ in range(4))
+    below.operation, over.operation, power.operation, density.operation = "SUBTRACT", "DIVIDE", "POWER", "MULTIPLY"
+    below.inputs[0].default_value, over.inputs[1].default_value = 3.0, 4.0
+    power.inputs[0].default_value, density.inputs[1].default_value = 2.718281828, 0.02
+    b.link(apart.outputs[2], below.inputs[1])
+    b.link(below.outputs[0], over.inputs[0])
+    b.link(over.outputs[0], power.inputs[1])
+    b.link(power.outputs[0], density.inputs[0])
+    scatter = b.node("ShaderNodeVolumeScatter", Color=(0.5, 1.0, 0.25, 1.0), Anisotropy=0.5)
+    b.link(density.outputs[0], scatter.inputs["Density"])
+    b.volume(scatter)
+    return b
+
+
+def varying_volume(kind: str = "material") -> Build:
+    """All of a Principled Volume that may vary, by generated coordinates."""
+    b = Build(kind)
+    place = b.node("ShaderNodeTexCoord").outputs["Generated"]
+    volume = b.node("ShaderNodeVolumePrincipled", Blackbody_Intensity=0.5)
+    for name in ("Color", "Density", "Anisotropy", "Absorption Color", "Emission Strength", "Emission Color"):
+        b.link(place, volume.inputs[name])
+    b.link(place, volume.inputs["Temperature"])
+    b.volume(volume)
+    return b
+
+
 def coefficients() -> Build:
     b = Build("world")
     values = {"Absorption_Coefficients": (0.1, 0.2, 0.3), "Scatter_Coefficients": (0.4, 0.5, 0.6), "Anisotropy": -0.3}
@@ -277,6 +308,7 @@ WORLDS = {
     "all_volumes": all_volumes,
     "principled_volume": principled_volume,
     "shining_volume": shining_volume,
+    "height_haze": height_haze,
     "background": background,
     "sky": sky,
 }
@@ -288,7 +320,18 @@ INTERIORS: dict[str, Callable[[str], Build]] = {
     "all_volumes": all_volumes,
     "principled_volume": principled_volume,
     "shining_volume": shining_volume,
+    "varying_volume": varying_volume,
 }
+
+
+def described(medium: Any) -> dict[str, Any] | None:
+    """Its constants, and the names of what varies."""
+    if medium is None:
+        return None
+    facts = {key: value for key, value in vars(medium).items() if key not in medium.outputs()}
+    program, falloff = facts.pop("program"), facts.pop("falloff")
+    operations = [] if program is None else [item.op for item in program.instructions]
+    return {**facts, "varies": sorted(medium.outputs()), "operations": operations, "falloff": falloff and vars(falloff)}
 
 
 def translate() -> dict[str, Any]:
@@ -302,7 +345,7 @@ def translate() -> dict[str, Any]:
     for name, filled in INTERIORS.items():
         notices = Notices()
         found = export_material(filled("material").owner, "Thing", bpy.app.version, notices)
-        facts["in " + name] = {"is": repr(found.material), "medium": found.volume and vars(found.volume)}
+        facts["in " + name] = {"is": repr(found.material), "medium": described(found.volume)}
         facts["in " + name]["notices"] = [str(notice) for notice in notices.items]
     for name, build in WORLDS.items():
         notices = Notices()
@@ -310,7 +353,7 @@ def translate() -> dict[str, Any]:
         facts[name] = {
             "radiance": environment.radiance,
             "varies": environment.program is not None,
-            "medium": None if medium is None else vars(medium),
+            "medium": described(medium),
         }
         facts[name]["notices"] = [str(notice) for notice in notices.items]
     return facts

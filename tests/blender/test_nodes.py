@@ -2,6 +2,7 @@
 """Shader nodes of real Blenders, as the engine's materials, world and fog; and the add-on's registration."""
 
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -217,13 +218,33 @@ def test_a_volume_alone_has_no_surface(facts: dict[str, Any]) -> None:
 
 
 def test_a_volume_may_shine_but_not_a_worlds(facts: dict[str, Any]) -> None:
-    """And density that varies is left out, and told."""
     found, world = facts["nodes"]["in shining_volume"], facts["nodes"]["shining_volume"]
     assert found["medium"]["emission"] == close((0.5, 0.25, 1.0))
     assert world["medium"]["emission"] == close((0.0, 0.0, 0.0))
-    assert found["medium"]["sigma_s"] == close((0.0, 0.0, 0.0))
-    assert len(found["notices"]) == 1 and "density that varies" in found["notices"][0]
     assert sum("does not emit" in notice for notice in world["notices"]) == 1
+
+
+def test_density_varies_but_for_a_worlds(facts: dict[str, Any]) -> None:
+    found, world = facts["nodes"]["in shining_volume"], facts["nodes"]["shining_volume"]
+    assert found["medium"]["varies"] == ["sigma_s"] and "noise" in found["medium"]["operations"]
+    assert found["medium"]["g"] == pytest.approx(0.5)
+    assert found["notices"] == []
+    assert world["medium"]["varies"] == [] and any("Density uses" in notice for notice in world["notices"])
+
+
+def test_all_of_a_volume_varies(facts: dict[str, Any]) -> None:
+    found = facts["nodes"]["in varying_volume"]
+    assert found["medium"]["varies"] == ["emission", "g", "sigma_a", "sigma_s"]
+    assert found["notices"] == []
+
+
+def test_haze_that_thins_out_with_height(facts: dict[str, Any]) -> None:
+    found = facts["nodes"]["height_haze"]
+    density = 0.02 * math.exp(0.75)
+    assert found["medium"]["sigma_s"] == close((0.5 * density, density, 0.25 * density))
+    assert found["medium"]["g"] == pytest.approx(0.5)
+    assert found["medium"]["falloff"] == pytest.approx({"height": 0.0, "scale_height": 4.0})
+    assert found["notices"] == []
 
 
 def test_volume_coefficients(facts: dict[str, Any], host: Host) -> None:

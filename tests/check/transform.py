@@ -70,6 +70,10 @@ def similar(
     def per_length(sigma: d.Rgb) -> d.Rgb:
         return (sigma[0] / scale, sigma[1] / scale, sigma[2] / scale)
 
+    def per_lengths(medium: d.Medium) -> d.Medium:
+        sigma_a, sigma_s = (per_length(sigma) for sigma in medium.constant_sigmas())
+        return d.Medium(sigma_a, sigma_s, medium.g)
+
     camera, medium = scene.camera, scene.medium
     return replace(
         scene,
@@ -88,5 +92,5 @@ def similar(
         ),
         lights=tuple(lamp(light) for light in scene.lights),
         environment=replace(scene.environment, to_world=rigid(scene.environment.to_world)),
-        medium=None if medium is None else d.Medium(per_length(medium.sigma_a), per_length(medium.sigma_s), medium.g),
+        medium=None if medium is None else per_lengths(medium),
     )

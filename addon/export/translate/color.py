@@ -7,12 +7,26 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...scene.program import Table
+from ...scene.program import Op, Table
 from .. import observer
 from ..color import TO_RGB
 from ..color import blackbody as blackbody_color
 from .arithmetic import mix_inputs
-from .values import Number, Value, clamped, clamped_color, math, number, op, product, scaled, triple, vector_math
+from .values import (
+    Number,
+    Triple,
+    Value,
+    clamped,
+    clamped_color,
+    math,
+    number,
+    op,
+    product,
+    scaled,
+    triple,
+    value_of,
+    vector_math,
+)
 
 if TYPE_CHECKING:
     from ..nodes import Nodes
@@ -138,7 +152,15 @@ def wavelength(nodes: Nodes, source: Source) -> Value:
 
 
 def blackbody(nodes: Nodes, source: Source) -> Value:
+    kelvin = number(nodes.input(source, 0))
+    return value_of(blackbody_of(kelvin))
+
+
+def blackbody_of(kelvin: Number) -> Triple:
+    """The colour of a black body, of luminance 1."""
+    if not isinstance(kelvin, Op):
+        return blackbody_color(kelvin)
     rows = np.ones((BLACKBODY_ROWS, 4), np.float32)
     kelvins = np.linspace(*BLACKBODY_RANGE, BLACKBODY_ROWS)
     rows[:, :3] = [blackbody_color(float(kelvin)) for kelvin in kelvins]
-    return op("ramp", number(nodes.input(source, 0)), modes=("linear",), resource=Table(rows, *BLACKBODY_RANGE))
+    return op("ramp", kelvin, modes=("linear",), resource=Table(rows, *BLACKBODY_RANGE))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...scene.program import Op
-from .values import Triple, Value, number, op, triple, vector_math
+from .values import Triple, Value, number, op, triple, value_of, vector_math
 
 if TYPE_CHECKING:
     from ..nodes import Nodes
@@ -23,6 +23,9 @@ ISLAND = "island"  # another number for each part of a mesh that hangs together
 # Of instances: properties of objects and instancers, and values of particles, by name.
 OBJECT_PREFIX, INSTANCER_PREFIX, PARTICLE_PREFIX = "object:", "instancer:", "particle:"
 INSTANCER_GENERATED, INSTANCER_UV = "instancer_generated", "instancer_uv"
+# Of instances: from the object's coordinates to generated ones, by which points within it go.
+VOLUME_SCALE, VOLUME_OFFSET = "volume_scale", "volume_offset"
+VOLUME_DENSITY = "volume_density"  # of instances of volume objects: a factor of their density
 
 # From here on the strength of a normal map scales what it holds; before, it blends normals.
 STRENGTH_IN_TANGENTS = (4, 0)
@@ -43,6 +46,9 @@ def geometry(nodes: Nodes, what: str) -> Op:
 
 
 def attribute(nodes: Nodes, name: str) -> Op:
+    grid = nodes.grids.get(name.removeprefix(named("")))
+    if grid is not None:
+        return grid.lookup(geometry(nodes, "object_position"))
     return op("attribute", nodes.shift_width, modes=(nodes.shift,), resource=name)
 
 
@@ -54,7 +60,14 @@ def place(nodes: Nodes, kind: str) -> Triple:
     """Texture coordinates where nothing is linked to a texture's vector."""
     if nodes.is_sky:
         return geometry(nodes, "position")
-    return attribute(nodes, ACTIVE_UV if kind == "uv" else GENERATED)
+    return generated(nodes) if kind != "uv" else attribute(nodes, ACTIVE_UV)
+
+
+def generated(nodes: Nodes) -> Triple:
+    if not nodes.in_volume:
+        return attribute(nodes, GENERATED)
+    place = geometry(nodes, "object_position")
+    return vector_math("multiply_add", place, attribute(nodes, VOLUME_SCALE), attribute(nodes, VOLUME_OFFSET))
 
 
 def texture_coordinate(nodes: Nodes, source: Source) -> Value:
@@ -66,7 +79,7 @@ def texture_coordinate(nodes: Nodes, source: Source) -> Value:
     if source.node.from_instancer and kind in ("Generated", "UV"):
         return attribute(nodes, INSTANCER_GENERATED if kind == "Generated" else INSTANCER_UV)
     if kind == "Generated":
-        return attribute(nodes, GENERATED)
+        return value_of(generated(nodes))
     if kind == "UV":
         return (0.0, 0.0, 0.0) if nodes.is_sky else attribute(nodes, ACTIVE_UV)
     if kind == "Object":
@@ -114,6 +127,15 @@ def particle_info(nodes: Nodes, source: Source) -> Value:
     return value if source.output.type == "VECTOR" else op("separate", value, modes=("x",))
 
 
+def volume_info(nodes: Nodes, source: Source) -> Value:
+    """Of a volume object's grids; 0 where there is none of the name."""
+    name = source.output.identifier.lower()
+    if name not in nodes.grids:
+        return (0.0,) if source.output.type == "VALUE" else (0.0, 0.0, 0.0)
+    value = attribute(nodes, named(name))
+    return op("average", value) if source.output.type == "VALUE" else value
+
+
 def color_attribute(nodes: Nodes, source: Source) -> Value:
     name = source.node.layer_name
     return _attribute_output(nodes, source, named(name) if name else ACTIVE_COLOR)
@@ -121,6 +143,8 @@ def color_attribute(nodes: Nodes, source: Source) -> Value:
 
 def _attribute_output(nodes: Nodes, source: Source, name: str) -> Value:
     identifier = source.output.identifier
+    if identifier == "Alpha" and name.removeprefix(named("")) in nodes.grids:
+        return (1.0,)
     if identifier == "Alpha":
         return op("attribute_alpha", nodes.shift_width, modes=(nodes.shift,), resource=name)
     value = attribute(nodes, name)

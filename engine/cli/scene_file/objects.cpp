@@ -65,8 +65,8 @@ std::vector<double> read_motion(const Value &value) {
     return motion;
 }
 
-void read_object(const Value &value, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
-                 SceneFolder &folder) {
+void read_object(const Value &value, glimmer_scene *scene, const Programs &programs, const Materials &materials,
+                 Meshes &meshes, SceneFolder &folder) {
     value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices",
                          "color", "random", "randoms", "attributes", "visible", "holdout", "interior", "matte",
                          "light_group"});
@@ -95,7 +95,7 @@ void read_object(const Value &value, glimmer_scene *scene, const Materials &mate
         desc.motion = motion.data();
         desc.motion_count = motion.size() / 16;
     }
-    const auto interior = read_interior(value);
+    const auto interior = read_interior(value, programs);
     read_body(value, interior, desc);
 
     std::vector<double> instances;

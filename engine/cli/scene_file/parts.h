@@ -65,14 +65,19 @@ Textures read_textures(const Value &textures, SceneFolder &folder);
 Programs read_programs(const Value &programs, const Textures &textures, glimmer_scene *scene, SceneFolder &folder);
 Materials read_materials(const Value &materials, const Programs &programs, glimmer_scene *scene);
 Meshes read_meshes(const Value &meshes, SceneFolder &folder);
-void read_object(const Value &object, glimmer_scene *scene, const Materials &materials, Meshes &meshes,
-                 SceneFolder &folder);
-void read_spheres(const Value &spheres, glimmer_scene *scene, const Materials &materials, SceneFolder &folder);
+void read_object(const Value &object, glimmer_scene *scene, const Programs &programs, const Materials &materials,
+                 Meshes &meshes, SceneFolder &folder);
+void read_spheres(const Value &spheres, glimmer_scene *scene, const Programs &programs, const Materials &materials,
+                  SceneFolder &folder);
 void read_light(const Value &light, glimmer_scene *scene);
 void read_environment(const Value &environment, const Programs &programs, glimmer_scene *scene, SceneFolder &folder);
 void read_medium(const Value &medium, glimmer_scene *scene);
-/// What an object, or a group of spheres, is filled with.
-std::optional<glimmer_medium_desc> read_interior(const Value &owner);
+/// What an object, or a group of spheres, is filled with, and what the description refers to.
+struct Interior {
+    glimmer_medium_desc desc;
+    std::vector<glimmer_medium_binding> bindings;
+};
+std::optional<Interior> read_interior(const Value &owner, const Programs &programs);
 DepthLimits read_depth_limits(const Value &render);
 
 /// What stands at "motion", row by row and one matrix after another; empty where there is none.
@@ -87,7 +92,7 @@ uint32_t read_rays(const Value &list);
 /// What objects and spheres have in common: the index, what sees them, and what they are filled with. The description
 /// refers to `interior`, which must outlive it.
 template <class Description>
-void read_body(const Value &value, const std::optional<glimmer_medium_desc> &interior, Description &desc) {
+void read_body(const Value &value, const std::optional<Interior> &interior, Description &desc) {
     if (const auto index = value.find("index"))
         desc.object_index = static_cast<uint32_t>(index->integer(0, UINT32_MAX));
     if (const auto visible = value.find("visible"))
@@ -98,7 +103,7 @@ void read_body(const Value &value, const std::optional<glimmer_medium_desc> &int
         desc.matte = static_cast<uint32_t>(matte->integer(0, 1 << 24));
     desc.light_group = read_light_group(value);
     if (interior)
-        desc.interior = &*interior;
+        desc.interior = &interior->desc;
 }
 
 /// The matrix at a key, or the identity.

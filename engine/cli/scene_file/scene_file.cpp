@@ -37,9 +37,9 @@ LoadedScene load_scene(const std::filesystem::path &path) {
     if (const auto value = root.find("meshes"))
         meshes = read_meshes(*value, folder);
     if (const auto value = root.find("objects"))
-        value->for_each([&](const Value &object) { read_object(object, handle, materials, meshes, folder); });
+        value->for_each([&](const Value &object) { read_object(object, handle, programs, materials, meshes, folder); });
     if (const auto value = root.find("spheres"))
-        value->for_each([&](const Value &spheres) { read_spheres(spheres, handle, materials, folder); });
+        value->for_each([&](const Value &spheres) { read_spheres(spheres, handle, programs, materials, folder); });
     if (const auto value = root.find("lights"))
         value->for_each([&](const Value &light) { read_light(light, handle); });
     if (const auto value = root.find("environment"))

@@ -4,7 +4,8 @@
 
 namespace glimmer {
 
-void read_spheres(const Value &value, glimmer_scene *scene, const Materials &materials, SceneFolder &folder) {
+void read_spheres(const Value &value, glimmer_scene *scene, const Programs &programs, const Materials &materials,
+                  SceneFolder &folder) {
     value.expect_object({"center", "centers", "radius", "radii", "material", "index", "visible", "holdout", "interior",
                          "matte", "light_group"});
     if (value.has("center") == value.has("centers"))
@@ -16,7 +17,7 @@ void read_spheres(const Value &value, glimmer_scene *scene, const Materials &mat
     glimmer_spheres_init(&desc);
     desc.name = name.c_str();
     desc.material = materials.find(value.at("material"));
-    const auto interior = read_interior(value);
+    const auto interior = read_interior(value, programs);
     read_body(value, interior, desc);
 
     std::vector<double> centers, radii;

@@ -53,7 +53,12 @@ void add_material(Input &in, glimmer_scene *scene) {
 namespace {
 
 void fill_medium(Input &in, glimmer_medium_desc &desc) {
+    static constexpr glimmer_medium_binding kBindings[] = {{"sigma_s", 0, 0}, {"g", 1, 0}, {"g", 1, 1}, {"z", 0, 0}};
     glimmer_medium_init(&desc);
+    if (in.ConsumeIntegralInRange<int>(0, 3) == 0) {
+        desc.binding_count = in.ConsumeIntegralInRange<size_t>(0, std::size(kBindings));
+        desc.bindings = in.ConsumeBool() ? kBindings : nullptr;
+    }
     for (size_t c = 0; c < 3; ++c) {
         desc.sigma_a[c] = in.ConsumeIntegralInRange<int>(0, 7) ? in.ConsumeProbability<double>() : in.number();
         desc.sigma_s[c] = in.ConsumeIntegralInRange<int>(0, 7) ? in.ConsumeProbability<double>() : in.number();

@@ -2,6 +2,10 @@
 // Scenes: every description is checked here, whole, before anything is kept.
 #include "api/handles.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 using namespace glimmer;
 
 namespace {
@@ -54,11 +58,46 @@ MediumDescription checked_medium(const double (&sigma_a)[3], const double (&sigm
     }
     if (!(g > -1 && g < 1))
         fail_argument(what + ": g is " + text(g) + "; allowed: above -1, below 1");
-    return {{sigma_a[0], sigma_a[1], sigma_a[2]}, {sigma_s[0], sigma_s[1], sigma_s[2]}, g, {}};
+    return {{sigma_a[0], sigma_a[1], sigma_a[2]}, {sigma_s[0], sigma_s[1], sigma_s[2]}, g, {}, {}};
+}
+
+constexpr std::array<std::string_view, 4> kMediumKeys{"sigma_a", "sigma_s", "emission", "g"}; // of MediumKey
+
+/// What programs give of a medium, checked: bindings of one program stand together.
+std::vector<MediumBinding> checked_bindings(const glimmer_medium_desc &d,
+                                            const std::vector<std::shared_ptr<Program>> &programs,
+                                            const std::string &what) {
+    if (d.binding_count > kMediumKeys.size() || (d.binding_count && !d.bindings))
+        fail_argument(what + ": " + (d.bindings ? std::to_string(d.binding_count) : "null") +
+                      " bindings; allowed: up to " + std::to_string(kMediumKeys.size()));
+    std::vector<MediumBinding> out;
+    for (size_t i = 0; i < d.binding_count; ++i) {
+        const glimmer_medium_binding &b = d.bindings[i];
+        const auto key = std::ranges::find(kMediumKeys, std::string_view(b.key ? b.key : ""));
+        if (key == kMediumKeys.end())
+            fail_argument(what + ": " + (b.key ? "\"" + std::string(b.key) + "\"" : "null") +
+                          " cannot be bound; allowed: sigma_a, sigma_s, emission, g");
+        const std::string where = what + ": " + b.key;
+        const auto number = MediumKey(key - kMediumKeys.begin());
+        if (std::ranges::any_of(out, [&](const MediumBinding &known) { return known.key == number; }))
+            fail_argument(where + " is bound twice");
+        if (b.program >= programs.size())
+            fail_argument(where + ": program " + std::to_string(b.program) + " was not added");
+        if (b.output >= programs[b.program]->output_count())
+            fail_argument(where + ": output " + std::to_string(b.output) + " of " +
+                          std::to_string(programs[b.program]->output_count()) + " of its program");
+        if (programs[b.program]->is_number(b.output) != (number == MediumKey::g))
+            fail_argument(where + " is bound to a " +
+                          (number == MediumKey::g ? "vector; allowed: a number" : "number; allowed: a vector"));
+        out.push_back({number, b.program, b.output});
+    }
+    std::ranges::stable_sort(out, {}, &MediumBinding::program);
+    return out;
 }
 
 /// What a surface is filled with, checked; null: nothing.
-std::optional<MediumDescription> checked_interior(const glimmer_medium_desc *desc, const std::string &what) {
+std::optional<MediumDescription> checked_interior(const glimmer_medium_desc *desc, const SceneDescription &scene,
+                                                  const std::string &what) {
     if (!desc)
         return std::nullopt;
     glimmer_medium_desc defaults;
@@ -69,6 +108,7 @@ std::optional<MediumDescription> checked_interior(const glimmer_medium_desc *des
     for (double e : d.emission)
         check_range(e, 0, 1e30, interior + ": emission");
     out.emission = {d.emission[0], d.emission[1], d.emission[2]};
+    out.bindings = checked_bindings(d, scene.programs, interior);
     return out;
 }
 
@@ -211,7 +251,7 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         out.light_group = checked_light_group(d.light_group, what);
         out.attributes = checked_attributes(d.attribute_count, d.attributes,
                                             {kNoRows, kNoRows, kNoRows, out.instances.size()}, what);
-        out.interior = checked_interior(d.interior, what);
+        out.interior = checked_interior(d.interior, s, what);
         s.objects.push_back(std::move(out));
     });
 }
@@ -262,7 +302,7 @@ glimmer_result glimmer_scene_add_spheres(glimmer_scene *scene, const glimmer_sph
         out.holdout = d.holdout != 0;
         out.matte = checked_matte(d.matte, what);
         out.light_group = checked_light_group(d.light_group, what);
-        out.interior = checked_interior(d.interior, what);
+        out.interior = checked_interior(d.interior, s, what);
         s.spheres.push_back(std::move(out));
     });
 }
@@ -343,6 +383,16 @@ glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma
             fail_argument("medium: " + std::string(sigma_a ? "sigma_s" : "sigma_a") + " is null");
         s.medium =
             checked_medium({sigma_a[0], sigma_a[1], sigma_a[2]}, {sigma_s[0], sigma_s[1], sigma_s[2]}, g, "medium");
+    });
+}
+
+glimmer_result glimmer_scene_set_medium_falloff(glimmer_scene *scene, double height, double scale_height) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        check_finite(height, "medium: height");
+        if (!(scale_height >= 1e-30 && scale_height <= 1e30))
+            fail_argument("medium: scale_height is " + text(scale_height) + "; allowed: 1e-30 to 1e30");
+        s.medium_falloff = FalloffDescription{height, scale_height};
     });
 }
 

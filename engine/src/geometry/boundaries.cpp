@@ -222,6 +222,48 @@ size_t Boundaries::bytes() const {
     return instances_.size() * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + bvh_bytes_;
 }
 
+std::optional<Instance> Boundaries::instance(uint32_t body, ShutterTime time) const {
+    if (body >= instances_.size())
+        return std::nullopt;
+    const Instance &opening = instances_[body];
+    return opening.motion == kNone ? opening : interpolate(motions_[opening.motion], time);
+}
+
+BodyFrame Boundaries::frame(uint32_t body, ShutterTime time) const {
+    BodyFrame out;
+    const std::optional<Instance> placed = instance(body, time);
+    if (!placed) {
+        const Sphere &own = sphere(body);
+        const auto inverse = float(1 / own.radius);
+        out.to_local = {Vec3f{inverse, 0, 0}, {0, inverse, 0}, {0, 0, inverse}};
+        out.translation = Vec3f(own.center);
+        return out;
+    }
+    Linear linear;
+    for (size_t r = 0; r < 3; ++r)
+        linear.rows[r] = Vec3d(placed->linear[r]);
+    const Linear inverse = linear.cofactor().transposed();
+    const double determinant = linear.determinant();
+    for (size_t r = 0; r < 3; ++r)
+        out.to_local[r] = Vec3f(inverse.rows[r] / determinant);
+    out.translation = placed->translation;
+    return out;
+}
+
+void Boundaries::local_bounds(uint32_t body, Vec3f &low, Vec3f &high) const {
+    low = {-1, -1, -1}, high = {1, 1, 1};
+    if (body >= instances_.size())
+        return;
+    const Mesh &mesh = *instances_[body].mesh;
+    low = high = mesh.vertices[0];
+    for (const auto &triangle : mesh.triangles)
+        for (const uint32_t corner : triangle) {
+            const Vec3f &v = mesh.vertices[corner];
+            low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+            high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+        }
+}
+
 void Boundaries::cross(const Ray &ray, std::vector<Crossing> &crossings) const {
     crossings.clear();
     Ray whole = ray;

@@ -15,6 +15,15 @@ struct Crossing {
     bool enters;
 };
 
+/// Where a body stands: from the scene's space to its own.
+struct BodyFrame {
+    std::array<Vec3f, 3> to_local{Vec3f{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; ///< rows of the linear part
+    Vec3f translation;                                                   ///< of its origin, in the scene
+
+    Vec3f vector(const Vec3f &v) const { return {dot(to_local[0], v), dot(to_local[1], v), dot(to_local[2], v)}; }
+    Vec3f point(const Vec3f &p) const { return vector(p - translation); }
+};
+
 /// What is on the inner side of all of its planes.
 struct ConvexBody {
     struct Plane {
@@ -42,6 +51,14 @@ class Boundaries {
     void cross(const Ray &ray, std::vector<Crossing> &crossings) const;
 
     size_t size() const { return instances_.size() + spheres_.size(); }
+    /// Where a body stands at a moment: an instance with its matrix; a sphere as a body of radius 1 about its centre.
+    BodyFrame frame(uint32_t body, ShutterTime time) const;
+    /// The instance of a body at a moment; nothing for a sphere.
+    std::optional<Instance> instance(uint32_t body, ShutterTime time) const;
+    /// Asked only of a sphere.
+    const Sphere &sphere(uint32_t body) const { return spheres_[body - instances_.size()]; }
+    /// A box about a body, in its own space.
+    void local_bounds(uint32_t body, Vec3f &low, Vec3f &high) const;
     /// A sphere that holds all bodies.
     Sphere bounds() const;
     /// Whether there is a single body, still, closed, convex and with its normals outward: the way between two points

@@ -71,15 +71,16 @@ Rgb quotient(const Rgb &a, const Rgb &b) {
 } // namespace
 
 BoundedMedia::BoundedMedia(std::shared_ptr<const Boundaries> boundaries, std::vector<uint32_t> bodies,
-                           std::vector<InteriorMedium> media, uint32_t everywhere)
-    : boundaries_(std::move(boundaries)), bodies_(std::move(bodies)), media_(std::move(media)),
-      everywhere_(everywhere) {
+                           std::vector<InteriorMedium> media, uint32_t everywhere,
+                           std::shared_ptr<const VaryingBodies> varying)
+    : boundaries_(std::move(boundaries)), bodies_(std::move(bodies)), media_(std::move(media)), everywhere_(everywhere),
+      varying_(std::move(varying)) {
     static std::atomic<uint64_t> count{0};
     number_ = ++count;
     float least = kInfinity;
     for (const InteriorMedium &m : media_) {
-        emits_ |= !is_black(m.emission);
-        scatters_ |= m.coefficients.scatters();
+        emits_ |= !is_black(m.emission) || m.may_shine;
+        scatters_ |= m.coefficients.scatters() || m.may_scatter;
         if (const float extinction = m.coefficients.least_scattering_extinction(); extinction < least) {
             least = extinction;
             thinnest_ = m.coefficients;
@@ -113,15 +114,15 @@ const RayMedia &BoundedMedia::along(const Ray &ray) const {
 
 void BoundedMedia::find_pieces(const Ray &ray, RayMedia &out) const {
     thread_local std::vector<Crossing> crossings;
-    thread_local std::vector<int32_t> depth;    // by body: how often the ray is within it
-    thread_local std::vector<uint32_t> touched; // bodies that it meets
-    thread_local std::vector<uint32_t> inside;  // media that it is in
+    thread_local std::vector<int32_t> depth;     // by body: how often the ray is within it
+    thread_local std::vector<uint32_t> touched;  // bodies that it meets
+    thread_local std::vector<MediumPart> inside; // media that it is in
     boundaries_->cross(ray, crossings);
     depth.resize(std::max(depth.size(), bodies_.size()), 0);
     touched.clear(), inside.clear();
     out.pieces.clear(), out.parts.clear();
     if (everywhere_ != kNone)
-        inside.push_back(everywhere_);
+        inside.push_back({everywhere_, kNone});
     for (const Crossing &c : crossings) {
         if (std::ranges::find(touched, c.body) == touched.end())
             touched.push_back(c.body);
@@ -130,7 +131,7 @@ void BoundedMedia::find_pieces(const Ray &ray, RayMedia &out) const {
     for (uint32_t body : touched) { // a body that the ray only enters is open: it starts outside
         depth[body] = std::max(depth[body], 0);
         if (depth[body] > 0)
-            inside.push_back(bodies_[body]);
+            inside.push_back({bodies_[body], body});
     }
     float begin = 0;
     for (const Crossing &c : crossings) {
@@ -142,28 +143,38 @@ void BoundedMedia::find_pieces(const Ray &ray, RayMedia &out) const {
         add_piece(begin, c.t, inside, out);
         begin = c.t;
         if (is_inside)
-            inside.push_back(bodies_[c.body]);
-        else
-            inside.erase(std::ranges::find(inside, bodies_[c.body]));
+            inside.push_back({bodies_[c.body], c.body});
+        else // one of the medium is as good as another, unless it varies
+            inside.erase(std::ranges::find_if(inside, [&](const MediumPart &p) {
+                return p.medium == bodies_[c.body] && (p.body == c.body || !media_[p.medium].varies);
+            }));
     }
     add_piece(begin, kInfinity, inside, out);
     for (uint32_t body : touched)
         depth[body] = 0;
 }
 
-void BoundedMedia::add_piece(float begin, float end, std::span<const uint32_t> inside, RayMedia &out) const {
+void BoundedMedia::add_piece(float begin, float end, std::span<const MediumPart> inside, RayMedia &out) const {
     if (!(begin < end) || inside.empty())
         return;
-    MediumPiece piece{begin, end, {}, {}, {}, {}, uint32_t(out.parts.size()), uint32_t(inside.size()), false};
-    for (uint32_t index : inside) {
-        const InteriorMedium &m = media_[index];
+    MediumPiece piece{begin, end,   {},   {}, {}, {}, uint32_t(out.parts.size()), uint32_t(inside.size()),
+                      false, false, false};
+    for (const MediumPart &part : inside) {
+        const InteriorMedium &m = media_[part.medium];
+        out.parts.push_back(part);
+        if (m.varies) {
+            piece.varies = true;
+            piece.scatters |= m.may_scatter;
+            piece.shines |= m.may_shine;
+            continue;
+        }
         piece.sigma_a += m.coefficients.sigma_a;
         piece.sigma_s += m.coefficients.sigma_s;
         piece.emission += m.emission;
-        out.parts.push_back(index);
     }
     piece.sigma_t = piece.sigma_a + piece.sigma_s;
-    piece.scatters = !is_black(piece.sigma_s);
+    piece.scatters |= !is_black(piece.sigma_s);
+    piece.shines |= !is_black(piece.emission);
     out.pieces.push_back(piece);
 }
 
@@ -217,13 +228,15 @@ ScatteringPoint BoundedMedia::scattering_point(const Ray &ray, float t, Sampler 
     const MediumPiece *piece = piece_at(media, t);
     if (!piece || !piece->scatters)
         return {Rgb(0), {}};
+    if (piece->varies)
+        return varying_scattering_point(media, *piece, ray, t, sampler);
     if (piece->count == 1)
-        return {Rgb(1), {media_[media.parts[piece->first]].coefficients.g}};
+        return {Rgb(1), {media_[media.parts[piece->first].medium].coefficients.g}};
     const float total = detail::sum(piece->sigma_s);
     float left = sampler.next_1d() * total;
     const HomogeneousMedium *chosen = nullptr;
     for (uint32_t k = 0; k < piece->count; ++k) {
-        const HomogeneousMedium &m = media_[media.parts[piece->first + k]].coefficients;
+        const HomogeneousMedium &m = media_[media.parts[piece->first + k].medium].coefficients;
         if (!m.scatters())
             continue;
         chosen = &m; // the last one where rounding leaves a rest

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "medium/bounded_media.h"
+#include "medium/height_haze.h"
 #include "medium/homogeneous_medium.h"
 #include "medium/phase.h"
 
@@ -18,13 +19,18 @@ class Medium {
     }
 
   public:
-    using Kind = std::variant<HomogeneousMedium, BoundedMedia>;
+    using Kind = std::variant<HomogeneousMedium, BoundedMedia, HeightHaze>;
 
     Medium(const HomogeneousMedium &medium) : kind_(medium) {}
+    Medium(const HeightHaze &medium) : kind_(medium) {}
     Medium(BoundedMedia media) : kind_(std::move(media)) {}
 
     /// The media within surfaces, which differ from place to place; null where one fills all space.
     const BoundedMedia *bounded() const { return std::get_if<BoundedMedia>(&kind_); }
+    /// Haze that thins out with height; null for other kinds.
+    const HeightHaze *height_haze() const { return std::get_if<HeightHaze>(&kind_); }
+    /// Whether light comes in from infinitely far: nothing comes through a medium without end.
+    bool lets_in() const { return !std::holds_alternative<HomogeneousMedium>(kind_); }
 
     bool scatters() const {
         return visit([](const auto &m) { return m.scatters(); });

@@ -112,6 +112,12 @@ std::string invalid_samples(const SampleFaults &faults) {
     return object({{"count", std::to_string(faults.invalid)}, {"first", first}});
 }
 
+/// How often a medium that varies was found denser than tracking had expected; a matter of noise, not of bias.
+uint64_t majorants_exceeded(const Scene &scene) {
+    const BoundedMedia *media = scene.medium ? scene.medium->bounded() : nullptr;
+    return media ? media->exceeded() : 0;
+}
+
 } // namespace
 
 std::string report_json(const ReportInput &in) {
@@ -140,6 +146,7 @@ std::string report_json(const ReportInput &in) {
                             {"cpu", number(in.progress.cpu_seconds)}})},
         {"rays", std::to_string(in.progress.rays)},
         {"peak_bytes", std::to_string(in.progress.peak_bytes)},
+        {"majorants_exceeded", std::to_string(majorants_exceeded(in.scene))},
         {"invalid_samples", invalid_samples(in.faults)},
         {"error", error_with_tails(in.curve.error())},
         {"curve", curve_points(in.curve.points())},

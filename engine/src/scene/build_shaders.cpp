@@ -14,7 +14,9 @@ namespace {
 
 using Names = AttributeNumbers;
 
-Names number_attributes(std::span<const std::shared_ptr<Program>> programs) {
+} // namespace
+
+AttributeNumbers number_attributes(std::span<const std::shared_ptr<Program>> programs) {
     Names names;
     for (const auto &program : programs) {
         std::vector<uint32_t> ids;
@@ -25,15 +27,13 @@ Names number_attributes(std::span<const std::shared_ptr<Program>> programs) {
     return names;
 }
 
-std::vector<AttributeView> views_of(std::span<const MeshAttribute> attributes, const Names &names) {
+std::vector<AttributeView> views_of(std::span<const MeshAttribute> attributes, const AttributeNumbers &names) {
     std::vector<AttributeView> views(names.size());
     for (const MeshAttribute &a : attributes)
         if (const auto found = names.find(a.name); found != names.end())
             views[found->second] = {a.values.data(), a.components, AttributeDomain(a.domain)};
     return views;
 }
-
-} // namespace
 
 /// For all values in range: an albedo of 1, and of what is rough the tip of the sharpest lobe.
 MaterialBounds SceneBuilder::bounds_of_varying(uint32_t material, float &interior) const {
@@ -84,6 +84,21 @@ void SceneBuilder::add_attributes_of_instances(ShaderScene &shaders, const Attri
     }
 }
 
+CameraFrame SceneBuilder::camera_frame() const {
+    CameraFrame frame;
+    const glimmer_camera_desc &c = *description_.camera;
+    const std::vector<Affine> &motion = description_.camera_motion; // programs know the camera of the middle
+    const Affine to_world = motion.empty() ? affine_from_rows(c.to_world) : motion[motion.size() / 2];
+    frame.to_camera = {Vec3f(to_world.linear.column(0)), Vec3f(to_world.linear.column(1)),
+                       -Vec3f(to_world.linear.column(2))};
+    frame.position = Vec3f(to_world.translation);
+    frame.orthographic = c.type == GLIMMER_ORTHOGRAPHIC;
+    frame.half_width = frame.orthographic ? float(c.width / 2) : float(std::tan(c.fov_x * kPiDouble / 360));
+    frame.aspect = float(scene_.film.height) / float(scene_.film.width);
+    frame.shift = {float(c.shift[0]), float(c.shift[1])};
+    return frame;
+}
+
 void SceneBuilder::build_shaders() {
     const size_t count = description_.materials.size();
     std::vector<uint32_t> varying;
@@ -107,17 +122,7 @@ void SceneBuilder::build_shaders() {
     shaders->object_materials = scene_.object_materials;
     shaders->sphere_materials = scene_.sphere_materials;
     shaders->sky = description_.sky;
-    const glimmer_camera_desc &c = *description_.camera;
-    const std::vector<Affine> &motion = description_.camera_motion; // programs know the camera of the middle
-    const Affine to_world = motion.empty() ? affine_from_rows(c.to_world) : motion[motion.size() / 2];
-    shaders->camera.to_camera = {Vec3f(to_world.linear.column(0)), Vec3f(to_world.linear.column(1)),
-                                 -Vec3f(to_world.linear.column(2))};
-    shaders->camera.position = Vec3f(to_world.translation);
-    shaders->camera.orthographic = c.type == GLIMMER_ORTHOGRAPHIC;
-    shaders->camera.half_width =
-        shaders->camera.orthographic ? float(c.width / 2) : float(std::tan(c.fov_x * kPiDouble / 360));
-    shaders->camera.aspect = float(scene_.film.height) / float(scene_.film.width);
-    shaders->camera.shift = {float(c.shift[0]), float(c.shift[1])};
+    shaders->camera = camera_frame();
     shaders->pixel_width = 2 * shaders->camera.half_width / float(scene_.film.width);
     for (const Instance &instance : scene_.accel->instances()) {
         shaders->frames.push_back(frame_of(instance, origin_));

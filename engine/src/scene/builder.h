@@ -56,6 +56,15 @@ class SceneBuilder {
     void add_boundaries(const ObjectDescription &object);
     void add_boundaries(const SpheresDescription &group);
     uint32_t add_interior(const MediumDescription &medium);
+    std::shared_ptr<const VaryingBodies> build_varying_bodies(const std::shared_ptr<const Boundaries> &boundaries,
+                                                              const std::vector<uint32_t> &bodies);
+    MediumBody medium_body(uint32_t body, const Boundaries &boundaries, const AttributeNumbers &names) const;
+    std::unique_ptr<const MajorantGrid> majorants(const MediumPrograms &programs, uint32_t medium, uint32_t body,
+                                                  uint32_t cells) const;
+    HomogeneousMedium mean_coefficients(const MediumPrograms &programs, const std::vector<uint32_t> &bodies,
+                                        uint32_t medium) const;
+    HeightHaze height_haze() const;
+    CameraFrame camera_frame() const;
     std::shared_ptr<const Mesh> without_absent(const ObjectDescription &object) const;
     void add_sphere_lights(LightList &lights) const;
     void add_mesh_light(LightList &lights) const;
@@ -76,7 +85,9 @@ class SceneBuilder {
     std::vector<InstanceMotion> boundary_motions_;
     std::vector<Sphere> boundary_spheres_;
     std::vector<uint32_t> instance_media_, sphere_media_;
+    std::vector<ObjectPlace> boundary_places_; ///< by instance
     std::vector<InteriorMedium> media_;
+    std::vector<MediumSources> medium_sources_;         ///< by medium
     std::set<std::shared_ptr<const Texture>> textures_; ///< that programs look up
     std::vector<bool> used_;                            ///< materials that something is made of
     size_t black_lights_ = 0, absent_objects_ = 0;

@@ -7,6 +7,7 @@
 #include "glimmer.h"
 #include "math/affine.h"
 #include "shading/material_description.h"
+#include "shading/medium_programs.h"
 #include "shading/program.h"
 
 #include <array>
@@ -26,6 +27,12 @@ struct MediumDescription {
     Vec3d sigma_a, sigma_s;
     double g = 0;
     Vec3d emission;
+    std::vector<MediumBinding> bindings; ///< what programs give in place of these
+};
+
+/// Of the medium that fills all space: what it is at a height, and by how much of it it thins out by e.
+struct FalloffDescription {
+    double height = 0, scale_height = 1;
 };
 
 struct ObjectDescription {
@@ -90,6 +97,7 @@ struct SceneDescription {
     uint8_t environment_light_group = 0;
     std::optional<SkySunDescription> sky_sun;
     std::optional<MediumDescription> medium;
+    std::optional<FalloffDescription> medium_falloff;
     std::optional<glimmer_camera_desc> camera;
     std::vector<Affine> camera_motion; ///< at moments evenly spaced over the shutter, in place of to_world
     std::optional<glimmer_film_desc> film;

@@ -2,6 +2,7 @@
 // The interpreter of shader programs: one step an instruction, no jumps.
 #include "shading/nodes/color.h"
 #include "shading/nodes/gabor.h"
+#include "shading/nodes/grid.h"
 #include "shading/nodes/image.h"
 #include "shading/nodes/normal.h"
 #include "shading/nodes/pattern.h"
@@ -229,6 +230,8 @@ class Evaluation {
         case Op::gabor:
             return gray(gabor(GaborOutput(i.mode[1]), i.mode[0] != 0, vector(i, 0), number(i, 1), number(i, 2),
                               number(i, 3), vector(i, 4)));
+        case Op::grid:
+            return grid(*program_.textures_[i.resource], vector(i, 0), vector(i, 1), i.mode[0] != 0);
         default: { // image, image_alpha
             const ImageMode mode{ProjectionKind(i.mode[0]), Interpolation(i.mode[1]), Extension(i.mode[2]),
                                  i.mode[3] != 0};
@@ -474,7 +477,10 @@ class Evaluation {
 
     const AttributeView *view_of(const Instruction &i) const {
         const uint32_t id = program_.attribute_ids_.empty() ? i.resource : program_.attribute_ids_[i.resource];
-        return id < g_.attributes.size() && g_.attributes[id].values && g_.vertices ? &g_.attributes[id] : nullptr;
+        if (id >= g_.attributes.size() || !g_.attributes[id].values)
+            return nullptr;
+        const AttributeView &view = g_.attributes[id]; // a point in a medium is on no triangle
+        return g_.vertices || view.domain == AttributeDomain::instance ? &view : nullptr;
     }
 
     size_t row_of(const AttributeView &view, size_t corner) const {

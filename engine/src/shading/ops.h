@@ -56,6 +56,7 @@ enum class Op : uint16_t {
     magic,
     brick,
     gabor,
+    grid,
     image,
     image_alpha,
     // The surface
@@ -134,6 +135,7 @@ inline constexpr std::array<glimmer_op_info_t, size_t(Op::count)> kOps{{
     {"magic", "0 1 2 3 4 5 6 7 8 9 10", "vnn", 'v', '-'},
     {"brick", "", "vnnnnnvv", 'v', '-'},
     {"gabor", "2d 3d|value phase intensity", "vnnnv", 'n', '-'},
+    {"grid", "linear closest", "vv", 'v', 'i'},
     {"image",
      "flat box sphere tube equirectangular mirror_ball|linear closest cubic|repeat extend clip mirror|as_is straight",
      "vn", 'v', 'i'},

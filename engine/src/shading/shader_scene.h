@@ -33,6 +33,9 @@ bool may_shine(const MaterialDescription &node, std::span<const ParameterBinding
 ObjectFrame frame_of(const Instance &instance, const Vec3d &origin, ObjectFrame rest = {});
 /// The scene's number of every name of an attribute that programs ask for.
 using AttributeNumbers = std::map<std::string, uint32_t>;
+/// Numbers the names, by which programs look them up from now on.
+AttributeNumbers number_attributes(std::span<const std::shared_ptr<Program>> programs);
+std::vector<AttributeView> views_of(std::span<const MeshAttribute> attributes, const AttributeNumbers &names);
 
 class ShaderScene : public VaryingEmission {
   public:

@@ -255,6 +255,23 @@ def test_bad_interior(scene: c_void_p, changes: dict[str, Any], word: str) -> No
     refused(functions().glimmer_scene_add_spheres(scene, byref(spheres)), ARGUMENT, "interior", word, "culprit")
 
 
+@pytest.mark.parametrize("key", [None, b"sigma_t", b"g", b"emission"])
+def test_bad_binding_of_an_interior(scene: c_void_p, key: bytes | None) -> None:
+    """Of a key that is none, or of a program that was not added."""
+    binding = structs.MediumBinding(key, 7, 0)
+    changes = {"binding_count": 1, "bindings": addressof(binding)}
+    test_bad_interior(scene, changes, "cannot be bound" if key in (None, b"sigma_t") else "program 7")
+    test_bad_interior(scene, {"binding_count": 5, "bindings": addressof(binding)}, "up to 4")
+    test_bad_interior(scene, {"binding_count": 1}, "null bindings")
+
+
+@pytest.mark.parametrize("scale_height", [0, -1, NAN, INFINITY])
+def test_bad_falloff(scene: c_void_p, scale_height: float) -> None:
+    call = functions().glimmer_scene_set_medium_falloff
+    refused(call(scene, 0, scale_height), ARGUMENT, "scale_height")
+    refused(call(scene, NAN, 1), ARGUMENT, "height")
+
+
 @pytest.mark.parametrize(
     ("changes", "word"),
     [

@@ -48,7 +48,9 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterT
         Interaction surface = scene_.interaction(ray, *hit);
         arena.clear();
         const Rgb emission = scene_.materials.shade(surface, {-ray.direction, 0, ray.time}, arena).emission;
-        sum += emission * transmittance(scene_.outside(), ray, hit->t);
+        const BoundedMedia *varying = scene_.medium ? scene_.medium->bounded() : nullptr;
+        sum += emission * (varying && varying->varies() ? varying->estimate_transmittance(ray, hit->t, sampler)
+                                                        : transmittance(scene_.outside(), ray, hit->t));
     }
     return sum;
 }

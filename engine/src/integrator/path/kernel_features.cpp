@@ -8,7 +8,8 @@ namespace glimmer {
 KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool shares, uint64_t passes) {
     KernelFeatures f;
     f.medium = scene.medium.has_value();
-    f.bounded_media = f.medium && scene.medium->bounded();
+    f.bounded_media = f.medium && scene.medium->lets_in();
+    f.varying_media = f.medium && scene.medium->bounded() && scene.medium->bounded()->varies();
     f.medium_walks = f.medium && scene.medium->scatters() && !shares;
     f.surfaces = scene.has_surfaces;
     f.transmission = scene.has_transmission;

@@ -16,7 +16,8 @@ namespace glimmer {
 
 struct KernelFeatures {
     bool medium = false;
-    bool bounded_media = false;   ///< media within surfaces, or that shine; else one fills all space
+    bool bounded_media = false;   ///< media that have an end; else one fills all space
+    bool varying_media = false;   ///< media that shader programs give from place to place
     bool medium_walks = false;    ///< the medium scatters, and paths walk through it by themselves: no light vertices
     bool surfaces = false;        ///< surfaces that scatter light, not only emissive spheres
     bool transmission = false;    ///< surfaces that scatter light to their other side; glass among them
@@ -37,9 +38,10 @@ struct FeatureText {
     const char *name; ///< for benchmarks
     const char *left_out;
 };
-inline constexpr std::array<FeatureText, 11> kFeatureTexts{{
+inline constexpr std::array<FeatureText, 12> kFeatureTexts{{
     {&KernelFeatures::medium, "medium", "no fog: no distance sampling, no transmittance"},
     {&KernelFeatures::bounded_media, "bounded media", ""},
+    {&KernelFeatures::varying_media, "varying media", ""},
     {&KernelFeatures::medium_walks, "walks in the medium", ""},
     {&KernelFeatures::surfaces, "surfaces", "no surface that scatters: no scattering at surfaces"},
     {&KernelFeatures::transmission, "transmission", "no glass: no search for the bodies around the camera"},
@@ -51,7 +53,7 @@ inline constexpr std::array<FeatureText, 11> kFeatureTexts{{
     {&KernelFeatures::estimator_flags, "estimator flags", ""},
     {&KernelFeatures::passes, "passes", ""},
 }};
-inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true, true, true, true};
+inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true, true, true, true, true, true};
 
 /// Whether a kernel with the features `has` can render what needs `needed`.
 constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {

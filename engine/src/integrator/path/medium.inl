@@ -89,7 +89,9 @@ void PathSample<F>::split_into_medium(const State &state, float end, const Mediu
 
 template <KernelFeatures F>
 bool PathSample<F>::fly_into_medium(State &state, float end, const Medium &medium) {
-    const FreeFlight flight = medium.sample_free_flight(state.ray, state.beta, end, sampler_);
+    const bool varies = F.varying_media && media_vary_;
+    const FreeFlight flight = varies ? medium.bounded()->estimate_free_flight(state.ray, state.beta, end, sampler_)
+                                     : medium.sample_free_flight(state.ray, state.beta, end, sampler_);
     if (!flight.scattered) {
         state.beta *= flight.weight;
         return false;
@@ -173,7 +175,7 @@ void PathSample<F>::sample_infinite_lights(const State &state, const Vec3f &x, c
         if (!light || !lights_medium(*light) || is_beyond_bounces(lights[picked], state.depth))
             continue;
         const float p_phase = phase.eval(state.ray.direction, light->direction);
-        const Rgb unshadowed = medium.transmittance({x, light->direction, state.ray.time}, light->distance) *
+        const Rgb unshadowed = transmittance(medium, {x, light->direction, state.ray.time}, light->distance) *
                                light->radiance * (p_phase / light->pdf / share);
         if (is_black(unshadowed))
             continue;
@@ -194,7 +196,7 @@ void PathSample<F>::sample_light_in_medium(const State &state, const Vec3f &x, c
     if (!light || !lights_medium(*light) || is_beyond_bounces(choice.index, state.depth))
         return;
     const float p_phase = phase.eval(state.ray.direction, light->direction);
-    const Rgb unshadowed = medium.transmittance({x, light->direction, state.ray.time}, light->distance) *
+    const Rgb unshadowed = transmittance(medium, {x, light->direction, state.ray.time}, light->distance) *
                            light->radiance * (p_phase / light->pdf / choice.probability);
     if (is_black(unshadowed))
         return;

@@ -123,7 +123,8 @@ template <KernelFeatures F>
 void PathSample<F>::pass_empty(const State &state, float end, const Medium *medium) {
     if constexpr (F.passes)
         if (trace_.passes && state.passes.sees_environment)
-            trace_.passes->transparency += mean_component(state.beta * transmittance(medium, state.ray, end));
+            trace_.passes->transparency +=
+                mean_component(medium ? state.beta * transmittance(*medium, state.ray, end) : state.beta);
 }
 
 } // namespace glimmer

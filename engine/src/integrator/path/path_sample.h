@@ -47,6 +47,8 @@ class PathSample {
         : context_(context), sampler_(sampler), trace_(trace) {
         if (F.medium && scene().medium) {
             sigma_ = scene().medium->least_extinction();
+            if constexpr (F.varying_media)
+                media_vary_ = scene().medium->bounded() && scene().medium->bounded()->varies();
         }
     }
 
@@ -188,6 +190,8 @@ class PathSample {
 
     /// Whether light is sampled along this segment, or else at the point where the path scatters on it.
     bool samples_lights_along(const State &state) const {
+        if (F.varying_media && media_vary_) // the density of free flights is not known
+            return false;
         return state.seen_directly() ? flags().equiangular : flags().deep_equiangular;
     }
     bool every_light(bool several) const {
@@ -246,7 +250,7 @@ class PathSample {
     }
     /// Whether light from infinitely far reaches the medium at all: nothing comes through an endless one.
     bool is_lit_from_infinity(const Medium &medium) const {
-        return F.bounded_media && medium.bounded() && !scene().lights.infinite().empty();
+        return F.bounded_media && medium.lets_in() && !scene().lights.infinite().empty();
     }
     EquiangularTable equiangular_table(uint32_t light, const Vec3f &origin, const Vec3f &direction, float end) const {
         const LightBound &b = scene().lights.bound(light);
@@ -255,6 +259,20 @@ class PathSample {
 
     // The medium
 
+    /// What the medium leaves of light on a ray; where media vary, an estimate.
+    Rgb transmittance(const Medium &medium, const Ray &ray, float t) {
+        if constexpr (F.varying_media)
+            if (media_vary_)
+                return medium.bounded()->estimate_transmittance(ray, t, sampler_);
+        return medium.transmittance(ray, t);
+    }
+    /// Whether a path may go on into the medium and past it: the distance to a scattering that is sure must be known.
+    bool splits(const State &state) const {
+        if (F.varying_media && media_vary_)
+            return false;
+        return has_light_vertices() ||
+               (flags().split && state.seen_directly() && stack_.size() < tuning::kMaxOpenBranches);
+    }
     /// Adds the light of the scene's lights that the medium scatters once into the segment. split: a path goes on from
     /// within the segment as well as from its end.
     void sample_lights_along(const State &state, float end, const Medium &medium, bool split);
@@ -315,7 +333,7 @@ class PathSample {
     static float vertex_fraction(const OrientedSurface &at, const Rgb &f_cos, const Vec3f &wi);
     static void cross_boundary(State &state, const OrientedSurface &at);
     /// Of light that arrives from the other side of the boundary of a body.
-    Rgb transmittance_beyond(const OrientedSurface &at, const Ray &ray, float distance) const;
+    Rgb transmittance_beyond(const OrientedSurface &at, const Ray &ray, float distance);
     /// Lets the path go straight on behind a surface that is not opaque, with a probability, or for certain where
     /// nothing else is wanted of it. Else the state stands for what the surface scatters.
     bool passes_through(State &state, const Interaction &surface, const Shading &shading, float distance, bool certain);
@@ -410,6 +428,7 @@ class PathSample {
     Sampler &sampler_;
     TraceContext &trace_;
     float sigma_ = 0; ///< extinction of the channel that has the least, for the choice of lights
+    bool media_vary_ = false;
     FilmSample result_;
     ClosureArena &arena_ = thread_arena();
     std::vector<State> &stack_ = thread_stack<State>(); ///< branches still to follow

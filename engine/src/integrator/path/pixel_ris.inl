@@ -40,7 +40,8 @@ void PathSample<F>::pixel_ris(ShutterTime time) {
         candidate.surface = scene().interaction(candidate.ray, *hit);
         candidate.beta = Rgb(1.0f / tuning::kRisCandidates);
         if constexpr (F.medium)
-            candidate.beta *= transmittance(scene().outside(), candidate.ray, hit->t);
+            if (const Medium *medium = scene().outside())
+                candidate.beta *= transmittance(*medium, candidate.ray, hit->t);
         candidate.shading = shade(candidate.surface, candidate.ray);
         const float target =
             ris_target(scene(), candidate.surface, candidate.shading.bsdf, -candidate.ray.direction, sigma_);

@@ -47,7 +47,7 @@ void PathSample<F>::follow(State &state) {
         const Ray segment = state.ray;
         if (surface && passes_through(state, *surface, shading, end, true)) {
             if (medium)
-                state.beta *= medium->transmittance(segment, end);
+                state.beta *= transmittance(*medium, segment, end);
             push(state);
         }
         return;
@@ -55,8 +55,7 @@ void PathSample<F>::follow(State &state) {
     state.emission_mode = EmissionMode::mis;
 
     if (medium && medium->scatters() && state.scatter < context_.limits.scatter) {
-        const bool split = has_light_vertices() ||
-                           (flags().split && state.seen_directly() && stack_.size() < tuning::kMaxOpenBranches);
+        const bool split = splits(state);
         if (samples_lights_along(state))
             sample_lights_along(state, end, *medium, split);
         if (has_light_vertices()) {
@@ -68,9 +67,9 @@ void PathSample<F>::follow(State &state) {
                 return;
         }
         if (split && surface)
-            state.beta *= medium->transmittance(state.ray, end);
+            state.beta *= transmittance(*medium, state.ray, end);
     } else if (medium && surface) {
-        state.beta *= medium->transmittance(state.ray, end);
+        state.beta *= transmittance(*medium, state.ray, end);
     }
     if (!surface)
         return;
@@ -149,8 +148,13 @@ void PathSample<F>::add_lamps(const State &state, float end, const Medium *mediu
 template <KernelFeatures F>
 void PathSample<F>::add_medium_emission(const State &state, float end, const Medium *medium) {
     const BoundedMedia *bounded = medium ? medium->bounded() : nullptr;
-    if (bounded && bounded->emits() && state.emission_mode != EmissionMode::only) // no light sampling finds it
-        add_met(state, state.beta * bounded->emitted(state.ray, end), 0);
+    if (!bounded || !bounded->emits() || state.emission_mode == EmissionMode::only) // no light sampling finds it
+        return;
+    const bool varies = F.varying_media && media_vary_;
+    add_met(state,
+            state.beta *
+                (varies ? bounded->estimate_emitted(state.ray, end, sampler_) : bounded->emitted(state.ray, end)),
+            0);
 }
 
 template <KernelFeatures F>
@@ -171,7 +175,8 @@ void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
 template <KernelFeatures F>
 void PathSample<F>::add_emitted(const State &state, const Rgb &radiance, float distance, const Medium *medium,
                                 uint8_t group, bool is_environment) {
-    add_met(state, state.beta * radiance * transmittance(medium, state.ray, distance), group, is_environment);
+    const Rgb left = medium ? transmittance(*medium, state.ray, distance) : Rgb(1);
+    add_met(state, state.beta * radiance * left, group, is_environment);
 }
 
 template <KernelFeatures F>
@@ -219,7 +224,10 @@ Rgb PathSample<F>::visibility(const Vec3f &origin, const LightSample &light, Shu
 template <KernelFeatures F>
 float PathSample<F>::survival(const Rgb &beta, float rr_scale, const Vec3f &x, float roulette_scale) const {
     const float early = flags().late_roulette ? roulette_scale : 1;
-    const float weight = early * max_component(beta) / rr_scale * return_bound(scene(), x);
+    // Weights of media that vary may be negative.
+    const float size =
+        F.varying_media ? max_component({std::abs(beta.r), std::abs(beta.g), std::abs(beta.b)}) : max_component(beta);
+    const float weight = early * size / rr_scale * return_bound(scene(), x);
     return weight > 0 ? std::min(weight, 1.0f) : 0; // also for NaN
 }
 

@@ -130,10 +130,10 @@ void PathSample<F>::cross_boundary(State &state, const OrientedSurface &at) {
 }
 
 template <KernelFeatures F>
-Rgb PathSample<F>::transmittance_beyond(const OrientedSurface &at, const Ray &ray, float distance) const {
+Rgb PathSample<F>::transmittance_beyond(const OrientedSurface &at, const Ray &ray, float distance) {
     const Rgb scale(1 / (at.eta * at.eta));
     const Medium *medium = F.medium ? at.beyond.medium(scene().outside()) : nullptr;
-    return medium ? medium->transmittance(ray, distance) * scale : scale;
+    return medium ? transmittance(*medium, ray, distance) * scale : scale;
 }
 
 template <KernelFeatures F>
@@ -250,7 +250,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (F.transmission && beyond && oriented_surface.bounds_interior)
             value *= transmittance_beyond(oriented_surface, to_light, light->distance);
         else if (medium)
-            value *= medium->transmittance(to_light, light->distance);
+            value *= transmittance(*medium, to_light, light->distance);
         if (lobes != Lobes::all)
             value *= fraction_of(lobes, vertex_fraction(oriented_surface, f_cos, wi));
         if (!light->delta && !is_black(value))
@@ -259,7 +259,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
                          : balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
         if (is_black(value))
             continue;
-        candidates[count] = {*light, value, value.r + value.g + value.b};
+        candidates[count] = {*light, value, std::abs(value.r) + std::abs(value.g) + std::abs(value.b)};
         if constexpr (F.passes) {
             candidates[count].light.group = group_of(choice.index, *light);
             if (state.depth == 0)

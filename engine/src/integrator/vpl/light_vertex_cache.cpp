@@ -44,6 +44,8 @@ bool has_light_to_start_at(const Scene &scene) {
 
 /// Why media within surfaces would not be served; null where they are.
 const char *reason_against(const Scene &scene, const BoundedMedia &media) {
+    if (media.varies())
+        return "there is fog that varies from place to place";
     if (!media.is_one_convex_body())
         return "there is fog within surfaces that is not one convex body";
     if (media.emits())
@@ -58,6 +60,8 @@ const char *reason_against(const Scene &scene, const DepthLimits &limits, const 
     if (const BoundedMedia *bounded = scene.medium->bounded())
         if (const char *reason = reason_against(scene, *bounded))
             return reason;
+    if (scene.medium->height_haze())
+        return "the fog thins out with height";
     if (limits.depth < 2 || limits.scatter < 1)
         return "max_depth is below 2 or max_scatter below 1";
     if (!around_camera.empty())
