@@ -105,7 +105,10 @@ inline bool is_diffuse(const Lobe &lobe) {
 template <class T>
 inline constexpr bool kNeedsEta = std::is_same_v<T, Dielectric>;
 
+/// Metal, which most surfaces here are, without a jump to what it is.
 inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
+    if (const auto *metal = std::get_if<Conductor>(&lobe)) [[likely]]
+        return eval(*metal, wo, wi);
     return std::visit(
         [&]<class T>(const T &l) {
             if constexpr (kNeedsEta<T>)
@@ -116,6 +119,8 @@ inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
         lobe);
 }
 inline float pdf(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
+    if (const auto *metal = std::get_if<Conductor>(&lobe)) [[likely]]
+        return pdf(*metal, wo, wi);
     return std::visit(
         [&]<class T>(const T &l) {
             if constexpr (kNeedsEta<T>)

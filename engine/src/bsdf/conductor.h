@@ -26,17 +26,21 @@ struct Conductor {
 inline bool is_specular(const Conductor &lobe) {
     return lobe.alpha < kSmoothAlpha;
 }
-inline Rgb fresnel(const Conductor &lobe, float cos_i) {
+/// Of all curves but Schlick's. Not inlined: there the one that most metals have would lose its registers to them.
+[[gnu::noinline]] inline Rgb other_fresnel(const Conductor &lobe, float cos_i) {
     if (!lobe.use_f0)
         return fresnel_conductor(cos_i, lobe.eta, lobe.k);
     if (lobe.ior > 0)
         return lobe.f0 + (lobe.f90 - lobe.f0) * fresnel_rise(cos_i, lobe.ior);
     const Rgb schlick = fresnel_schlick(cos_i, lobe.f0, lobe.f90);
-    if (lobe.f82 == Rgb(1)) [[likely]]
-        return schlick;
     const float rest2 = (1 - cos_i) * (1 - cos_i);
     const Rgb dipped = schlick - fresnel_f82_dip(lobe.f0, lobe.f90, lobe.f82) * (cos_i * rest2 * rest2 * rest2);
     return {std::max(dipped.r, 0.0f), std::max(dipped.g, 0.0f), std::max(dipped.b, 0.0f)};
+}
+inline Rgb fresnel(const Conductor &lobe, float cos_i) {
+    if (lobe.use_f0 && !(lobe.ior > 0) && lobe.f82 == Rgb(1)) [[likely]]
+        return fresnel_schlick(cos_i, lobe.f0, lobe.f90);
+    return other_fresnel(lobe, cos_i);
 }
 /// Reflectance of a facet over all directions, weighted by their cosines. Exact eta and k are taken by the curve
 /// through their reflectance at normal incidence and at 82 degrees.
@@ -54,7 +58,7 @@ inline Rgb mean_fresnel(const Conductor &lobe) {
         dip = fresnel_f82_dip(f0, f90, lobe.f82);
     return f0 + (f90 - f0) * (1 / 21.0f) - dip * (1 / 126.0f); // 2 int mu (1 - mu)^5, 2 int mu^2 (1 - mu)^6
 }
-inline Rgb multiple_scattering_scale(const Conductor &lobe, const Vec3f &wo) {
+[[gnu::noinline]] inline Rgb multiple_scattering_scale(const Conductor &lobe, const Vec3f &wo) {
     return multiple_scattering_scale(ggx_albedo(wo.z, lobe.alpha), mean_ggx_albedo(lobe.alpha), mean_fresnel(lobe));
 }
 /// An approximation of the directional albedo: reflectance at normal incidence; of a dielectric, which reflects most of
@@ -86,7 +90,9 @@ inline float max_value(const Conductor &lobe) {
 /// The reflectance of facets that light leaves to wo by.
 inline Rgb facet_reflectance(const Conductor &lobe, const Vec3f &wo, float cos_h) {
     const Rgb f = fresnel(lobe, cos_h);
-    return lobe.multiple_scattering ? f * multiple_scattering_scale(lobe, wo) : f;
+    if (lobe.multiple_scattering) [[unlikely]]
+        return f * multiple_scattering_scale(lobe, wo);
+    return f;
 }
 
 inline Rgb eval(const Conductor &lobe, const Vec3f &wo, const Vec3f &wi) {
