@@ -19,7 +19,4 @@ inline uint32_t pick_pixel(uint32_t first, uint32_t size, float u) {
     return first + std::min(uint32_t(u * float(size)), size - 1);
 }
 
-/// The filter's density in one of its two dimensions, per pixel, `offset` pixels from the middle.
-float filter_density(const FilmSettings &film, float offset);
-
 } // namespace glimmer

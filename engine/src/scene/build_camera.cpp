@@ -9,30 +9,6 @@ namespace glimmer {
 
 namespace {
 
-/// Inverse CDF of the Blackman-Harris window over [-0.5, 0.5] at equal steps of the CDF, for filter importance sampling
-/// (Ernst, Stamminger, Greiner 2006): every sample then counts the same and none leaves its pixel. The first and the
-/// last step spread evenly over a long tail that is all but empty: with 256 steps it got ten times its light.
-std::vector<float> invert_blackman_harris() {
-    constexpr int kFine = 65536, kSteps = 4096;
-    const auto window = [](double x) { // x in [0, 1]
-        const double a = 2 * kPiDouble * x;
-        return 0.35875 - 0.48829 * std::cos(a) + 0.14128 * std::cos(2 * a) - 0.01168 * std::cos(3 * a);
-    };
-    std::vector<double> cdf(kFine + 1, 0.0);
-    for (size_t i = 0; i < kFine; ++i)
-        cdf[i + 1] = cdf[i] + window((double(i) + 0.5) / kFine);
-    std::vector<float> inverse;
-    size_t i = 0;
-    for (int s = 0; s <= kSteps; ++s) {
-        const double target = cdf[kFine] * s / kSteps;
-        while (i + 1 < kFine && cdf[i + 1] < target)
-            ++i;
-        const double f = (target - cdf[i]) / (cdf[i + 1] - cdf[i]);
-        inverse.push_back(float((double(i) + std::min(std::max(f, 0.0), 1.0)) / kFine - 0.5));
-    }
-    return inverse;
-}
-
 CameraBase camera_base(const glimmer_camera_desc &c, const Affine &to_world, float aspect, double half_width) {
     CameraBase camera;
     camera.right = Vec3f(to_world.linear.column(0));
@@ -87,15 +63,12 @@ void SceneBuilder::build_camera_and_film() {
     film.crop_y = whole ? 0 : f.crop[1];
     film.crop_width = whole ? f.width : f.crop[2] - f.crop[0];
     film.crop_height = whole ? f.height : f.crop[3] - f.crop[1];
-    film.filter_width = f.filter_width;
     film.exposure = f.exposure;
     film.transparent = f.transparent != 0;
     film.transparent_width = f.transparent_glass;
     film.mist_start = f.mist_start, film.mist_depth = f.mist_depth, film.mist_falloff = f.mist_falloff;
     if (f.filter == GLIMMER_BLACKMAN_HARRIS)
-        film.filter_inverse = invert_blackman_harris();
-    else
-        film.filter_width = 1;
+        film.filter = PixelFilter::blackman_harris(f.filter_width);
 }
 
 } // namespace glimmer

@@ -4,6 +4,7 @@
 
 #include "base/warning.h"
 #include "camera/camera.h"
+#include "film/pixel_filter.h"
 #include "geometry/accel.h"
 #include "light/light_set.h"
 #include "medium/medium.h"
@@ -20,13 +21,12 @@ namespace glimmer {
 struct FilmSettings {
     uint32_t width = 1, height = 1;
     uint32_t crop_x = 0, crop_y = 0, crop_width = 1, crop_height = 1;
-    float filter_width = 1;   ///< pixels
+    PixelFilter filter;
     float exposure = 1;       ///< factor of all light
     bool transparent = false; ///< the camera does not see the environment
     /// Widest GGX of glass through which a transparent film is empty too; below 0: none.
     float transparent_width = -1;
     float mist_start = 5, mist_depth = 25, mist_falloff = 2;
-    std::vector<float> filter_inverse; ///< inverse CDF over [0, 1] -> [-0.5, 0.5] of the width; empty: box
 };
 
 /// What passes know an object, or a sphere, by.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrator/vpl/splat.h"
 
-#include "camera/camera_sample.h"
 #include "integrator/visibility.h"
 #include "integrator/vpl/tuning.h"
 #include "medium/phase.h"
@@ -15,7 +14,7 @@ namespace {
 
 /// The crop, widened by the filter.
 FilmRectangle film_reached(const FilmSettings &film) {
-    const float margin = 0.5f * (film.filter_width - 1);
+    const float margin = 0.5f * (film.filter.width() - 1);
     const auto width = float(film.width), height = float(film.height);
     return {{(float(film.crop_x) - margin) / width, (float(film.crop_y) - margin) / height},
             {(float(film.crop_x + film.crop_width) + margin) / width,
@@ -37,7 +36,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, Shu
         return;
     const FilmSettings &film = scene.film;
     const float u = seen->film.x * float(film.width), v = seen->film.y * float(film.height);
-    const float half = 0.5f * film.filter_width;
+    const float half = 0.5f * film.filter.width();
     // The pixels whose filter may hold the point.
     const float left = std::max(std::floor(u - half), float(film.crop_x)),
                 right = std::min(u + half, float(film.crop_x + film.crop_width) - 0.5f),
@@ -55,7 +54,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, Shu
     std::optional<Rgb> arriving;
     for (float py = top; py <= bottom; ++py)
         for (float px = left; px <= right; ++px) {
-            const float weight = filter_density(film, u - px - 0.5f) * filter_density(film, v - py - 0.5f);
+            const float weight = film.filter.density(u - px - 0.5f) * film.filter.density(v - py - 0.5f);
             if (!(weight > 0))
                 continue;
             if (!arriving)
