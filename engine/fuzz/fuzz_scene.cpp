@@ -23,7 +23,7 @@ void render(glimmer_scene *scene, const DepthLimits &limits, const char *integra
     desc.threads = 1;
     desc.max_depth = limits.max_depth;
     desc.max_scatter = limits.max_scatter;
-    desc.passes = (1u << GLIMMER_PASS_COUNT) - 1;
+    desc.passes = (uint32_t(1) << GLIMMER_PASS_LIGHT_GROUP) - 1; // those of light groups do without light vertices
     glimmer_render *handle = nullptr;
     check(glimmer_render_create(scene, &desc, &handle), "render");
     const RenderHandle render(handle);

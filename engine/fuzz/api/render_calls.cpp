@@ -22,7 +22,9 @@ void create_render(Input &in, Handles &handles, glimmer_scene *scene) {
     desc.tile_size = in.ConsumeBool() ? in.ConsumeIntegralInRange<uint32_t>(0, 64) : 65537;
     desc.max_depth = in.ConsumeIntegralInRange<int64_t>(-2, 4);
     desc.max_scatter = in.ConsumeBool() ? -1 : INT64_MAX;
-    desc.passes = in.ConsumeIntegralInRange<uint32_t>(0, 1u << GLIMMER_PASS_COUNT);
+    const auto passes = in.ConsumeIntegralInRange<uint64_t>(0, uint64_t(1) << GLIMMER_PASS_COUNT);
+    desc.passes = uint32_t(passes);
+    desc.passes_above = uint32_t(passes >> 32);
     in.spoil_size(desc);
     glimmer_render *render = nullptr;
     handles.keep(glimmer_render_create(scene, &desc, &render), render, handles.renders);

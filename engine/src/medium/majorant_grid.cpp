@@ -46,7 +46,7 @@ MajorantGrid::MajorantGrid(const Vec3f &low, const Vec3f &high, uint32_t cells, 
         count_[size_t(axis)] = std::clamp(int(std::ceil(extent[axis] / size_ - 1e-3f)), 1, int(cells));
         lattice[size_t(axis)] = count_[size_t(axis)] * kSteps + 1;
     }
-    const auto [nx, ny, nz] = lattice;
+    const int nx = lattice[0], ny = lattice[1], nz = lattice[2];
     std::vector<float> values(size_t(nx) * size_t(ny) * size_t(nz));
     const auto index = [&](int x, int y, int z) {
         return (size_t(z) * size_t(ny) + size_t(y)) * size_t(nx) + size_t(x);
