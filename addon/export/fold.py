@@ -152,15 +152,21 @@ def _layer_weight(nodes: Folder, source: Source) -> Constant:
     return (mean,)
 
 
-def read_image(image: bpy.types.Image) -> NDArray[np.float32]:
-    """(height, width, channels) float32, linear, bottom row first."""
+def stored_pixels(image: bpy.types.Image) -> NDArray[np.float32]:
+    """(height, width, channels) as Blender has them, bottom row first. Raises ValueError where there are none."""
     width, height = image.size
     channels = image.channels
     if not width or not height or not channels:
         raise ValueError("has no pixels")
     pixels = np.empty(width * height * channels, np.float32)
     image.pixels.foreach_get(pixels)
-    pixels = pixels.reshape(height, width, channels)
+    return pixels.reshape(height, width, channels)
+
+
+def read_image(image: bpy.types.Image) -> NDArray[np.float32]:
+    """(height, width, channels), linear, bottom row first. Raises as `stored_pixels`."""
+    pixels = stored_pixels(image)
+    channels = image.channels
     if not image.is_float and image.colorspace_settings.name.startswith("sRGB"):
         pixels[..., :3] = srgb_to_linear(pixels[..., :3])
     if channels < 3:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...scene.program import Op, Texture
-from ..fold import read_image
+from ..fold import read_image, stored_pixels
 from .values import Triple, Value, math, number, op, triple, vector_math
 
 if TYPE_CHECKING:
@@ -80,13 +80,8 @@ class Images:
 
 
 def _read(image: Any) -> Texture:
-    width, height = image.size
+    pixels = stored_pixels(image)
     channels = image.channels
-    if not width or not height or not channels:
-        raise ValueError("has no pixels")
-    pixels = np.empty(width * height * channels, np.float32)
-    image.pixels.foreach_get(pixels)
-    pixels = pixels.reshape(height, width, channels)
     is_srgb = not image.is_float and image.colorspace_settings.name not in DATA_SPACES + LINEAR_SPACES
     has_alpha = channels in (2, 4)
     if has_alpha and image.alpha_mode == "NONE":
