@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
+from typing import Any
+
 import bpy
 
 from .panel import GlimmerPanel, draw_node_input
@@ -27,30 +29,27 @@ class GLIMMER_PT_surface(_MaterialPanel, bpy.types.Panel):
             self.layout.prop(material, name)
 
 
-class GLIMMER_PT_volume(_MaterialPanel, bpy.types.Panel):
+class _InputPanel(_MaterialPanel):
+    """What is linked to the output's input of the panel's name."""
+
+    bl_label = ""
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.material.use_nodes
+
+    def draw(self: Any, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        draw_node_input(self.layout, context.material.node_tree, self.bl_label)
+
+
+class GLIMMER_PT_volume(_InputPanel, bpy.types.Panel):
     bl_label = "Volume"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.material.use_nodes
-
-    def draw(self, context: bpy.types.Context) -> None:
-        self.layout.use_property_split = True
-        draw_node_input(self.layout, context.material.node_tree, "Volume")
 
 
-class GLIMMER_PT_displacement(_MaterialPanel, bpy.types.Panel):
+class GLIMMER_PT_displacement(_InputPanel, bpy.types.Panel):
     bl_label = "Displacement"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.material.use_nodes
-
-    def draw(self, context: bpy.types.Context) -> None:
-        self.layout.use_property_split = True
-        draw_node_input(self.layout, context.material.node_tree, "Displacement")
 
 
 class GLIMMER_PT_material_settings(_MaterialPanel, bpy.types.Panel):
@@ -71,12 +70,4 @@ class GLIMMER_PT_material_settings(_MaterialPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_surface, GLIMMER_PT_volume, GLIMMER_PT_displacement, GLIMMER_PT_material_settings)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)
