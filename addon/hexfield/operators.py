@@ -115,12 +115,4 @@ def real_mesh(context: Any, obj: Any) -> Any:
 
 _CLASSES = (GLIMMER_OT_add_hexagon_field, GLIMMER_OT_make_plates_real)
 
-
-def register() -> None:
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -87,12 +87,4 @@ def _panels(name: str, place: dict[str, Any]) -> list[type]:
 
 _CLASSES = tuple(panel for name, place in _PLACES.items() for panel in _panels(name, place))
 
-
-def register() -> None:
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

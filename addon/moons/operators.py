@@ -92,12 +92,4 @@ def _select(context: Any, objects: list[Any]) -> None:
 
 _CLASSES = (GLIMMER_OT_add_moon, GLIMMER_OT_add_five_moons)
 
-
-def register() -> None:
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

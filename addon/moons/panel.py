@@ -40,12 +40,4 @@ class GLIMMER_PT_moon_sidebar(_MoonPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_moon, GLIMMER_PT_moon_sidebar)
 
-
-def register() -> None:
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

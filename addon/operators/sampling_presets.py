@@ -59,12 +59,4 @@ class GLIMMER_OT_sampling_preset_add(AddPresetBase, bpy.types.Operator):
 
 _CLASSES = (GLIMMER_OT_sampling_preset, GLIMMER_OT_sampling_preset_add)
 
-
-def register() -> None:
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -42,12 +42,4 @@ class GLIMMER_PT_report_details(GlimmerPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_report, GLIMMER_PT_report_details)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -89,12 +89,4 @@ class GLIMMER_PT_light_nodes(GlimmerPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_light, GLIMMER_PT_light_options, GLIMMER_PT_light_nodes)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -64,12 +64,4 @@ class GLIMMER_PT_object_motion_blur(GlimmerPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_motion_blur, GLIMMER_PT_shutter_curve, GLIMMER_PT_object_motion_blur)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -61,12 +61,4 @@ class GLIMMER_PT_performance(GlimmerPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_light_paths, GLIMMER_PT_film, GLIMMER_PT_performance)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

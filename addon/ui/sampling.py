@@ -109,12 +109,4 @@ _CLASSES = (
     GLIMMER_PT_sampling_advanced,
 )
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

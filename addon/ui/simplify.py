@@ -41,12 +41,4 @@ class GLIMMER_PT_simplify_render(_SimplifyPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_simplify, GLIMMER_PT_simplify_viewport, GLIMMER_PT_simplify_render)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -76,12 +76,4 @@ class GLIMMER_PT_view_layer_override(GlimmerPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_passes, GLIMMER_PT_cryptomatte, GLIMMER_PT_light_groups, GLIMMER_PT_view_layer_override)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -57,12 +57,4 @@ class GLIMMER_PT_world_ray_visibility(GlimmerPanel, bpy.types.Panel):
 
 _CLASSES = (GLIMMER_PT_ray_visibility, GLIMMER_PT_world_ray_visibility)
 
-
-def register() -> None:
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)
