@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All steps of the path integrator together, to be compiled for a set of features. Only kernels.cpp, and benchmarks of
-// single kernels, may include this.
+// All steps of the path integrator together, to be compiled for a set of features. Only the files of kernels/, and
+// benchmarks of single kernels, may include this.
 #pragma once
 
 #include "integrator/path/kernels.h"
@@ -23,11 +23,6 @@ template <KernelFeatures F>
     if constexpr (F.transmission)
         camera.interior = interior;
     return PathSample<F>(context, sampler, trace).run(camera);
-}
-
-template <KernelFeatures F>
-constexpr PathKernel compiled(const char *name) {
-    return {name, F, &sample_path<F>};
 }
 
 } // namespace glimmer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene needs of the path integrator. The inner loop is compiled for a few sets of features (kernels.cpp).
+// What a scene needs of the path integrator. The inner loop is compiled for a few sets of features (kernels.h).
 // Within it, a test of a feature costs nothing, and without the feature its code and its part of the path's state are
 // gone. All kernels draw the same random numbers and do the same arithmetic, so that they give the same bits: a feature
 // may leave out what would bring nothing, but never change what is drawn. What each saves: bench/features.cpp.

@@ -30,6 +30,27 @@ struct PathKernel {
                          TraceContext &trace);
 };
 
+/// The light of one camera ray: kernel.inl defines it, and one file of kernels/ compiles it for each set below.
+template <KernelFeatures F>
+FilmSample sample_path(const PathContext &context, const Ray &ray, const InteriorStack &interior, Sampler &sampler,
+                       TraceContext &trace);
+
+template <KernelFeatures F>
+constexpr PathKernel compiled(const char *name) {
+    return {name, F, &sample_path<F>};
+}
+
+constexpr KernelFeatures without_passes(KernelFeatures features) {
+    features.passes = false;
+    return features;
+}
+
+// The sets of features that a kernel is compiled for.
+inline constexpr KernelFeatures kSpheres{.medium = true};
+inline constexpr KernelFeatures kSurfaces{.surfaces = true, .bvh = true};
+inline constexpr KernelFeatures kSurfacesInFog{.medium = true, .surfaces = true, .bvh = true};
+inline constexpr KernelFeatures kEverythingButPasses = without_passes(kAllFeatures);
+
 /// The first kernel of the table, least features first, that has what is needed.
 const PathKernel &path_kernel(const KernelFeatures &needed);
 
