@@ -153,7 +153,10 @@ def least_megabytes() -> int:
 
 @pytest.mark.parametrize(
     ("plates", "side", "more"),
-    [(200_000, 200, (*range(14, 22), 100, 150)), pytest.param(1_000_000, 700, range(0, 1600, 50), marks=pytest.mark.full)],
+    [
+        (200_000, 200, (*range(14, 22), 100, 150)),
+        pytest.param(1_000_000, 700, range(0, 1600, 50), marks=pytest.mark.full),
+    ],
     ids=["few", "many"],
 )
 def test_out_of_memory_is_one_line(plates: int, side: int, more: Sequence[int], tmp_path: Path) -> None:
