@@ -14,6 +14,7 @@ import atexit
 import os
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
 
@@ -25,6 +26,9 @@ EXIT_STATUS = 1
 # The render that failed and still may write a file.
 _pending = {"failed": False}
 _process = {"failed": False}
+
+# Called before a failed render ends the process.
+before_exit: list[Callable[[], None]] = []
 
 
 def is_module() -> bool:
@@ -42,12 +46,23 @@ def _is_called_from_script(frame: FrameType | None) -> bool:
     return False
 
 
+def is_command_line() -> bool:
+    """Whether the render was asked for by Blender's own arguments, -f or -a: nobody but the files' reader learns of
+    it."""
+    return bpy.app.background and not is_module() and not _is_called_from_script(sys._getframe())
+
+
+def end_with_status() -> None:
+    """The process goes on, and its status will tell that a render of it has failed."""
+    _process["failed"] = True
+
+
 def fail(engine: bpy.types.RenderEngine, message: str) -> None:
     """Ends a render that has begun and ended a result already."""
     if engine.is_preview:
         engine.error_set(message)
         return
-    if bpy.app.background and not is_module() and not _is_called_from_script(sys._getframe()):
+    if is_command_line():
         _exit_now(message)
     _pending["failed"] = True
     _process["failed"] = bpy.app.background
@@ -57,6 +72,8 @@ def fail(engine: bpy.types.RenderEngine, message: str) -> None:
 
 
 def _exit_now(message: str) -> None:
+    for action in before_exit:
+        action()
     sys.stderr.write(f"Error: Glimmer: {message}\n")
     shutil.rmtree(bpy.app.tempdir, ignore_errors=True)
     sys.stdout.flush()

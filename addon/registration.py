@@ -11,13 +11,26 @@ import sys
 
 import bpy
 
-from . import callbacks, curve_files, engine, failure, haze, hexfield, moons, operators, properties, reports, ui
+from . import (
+    callbacks,
+    curve_files,
+    engine,
+    failure,
+    frame_files,
+    haze,
+    hexfield,
+    moons,
+    operators,
+    properties,
+    reports,
+    ui,
+)
 from .native import library, render
 from .scene.problems import GlimmerError
 from .viewport import redraw
 from .viewport import session as view_session
 
-_PARTS = (properties, reports, failure, curve_files, engine, redraw, operators, hexfield, moons, haze, ui)
+_PARTS = (properties, reports, failure, frame_files, curve_files, engine, redraw, operators, hexfield, moons, haze, ui)
 _registered: list[object] = []
 _log = logging.getLogger(__name__)
 
