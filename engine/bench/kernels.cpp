@@ -68,7 +68,7 @@ void connections(benchmark::State &state) {
         const auto from = [&](size_t c) { return columns[c].data() + first; };
         return of_set.connect({0.015f, 0.015f, 0.015f, 0, true},
                               {from(0), from(1), from(2), from(3), from(4), from(5), nullptr, nullptr, nullptr}, count,
-                              {uniform(7, i), 0.5f, 0.5f, 0, 0, 1}, 0.3f, parts.data());
+                              {uniform(7, i), 0.5f, 0.5f, 0, 0, 1}, 0.3f, {parts.data(), nullptr, nullptr, nullptr});
     });
 }
 BENCHMARK(connections)->Arg(0)->Arg(1);

@@ -28,8 +28,8 @@ PROBE int probe_has_avx512() {
 PROBE void probe_connect(int wide, const float *m, const float *vertices, int directed, uint64_t n, const float *point,
                          float clamp_distance, float *means, float *sums) {
     const GatherPoint p{point[0], point[1], point[2], point[3], point[4], point[5]};
-    const ConnectionSums s =
-        connect_of(wide).connect(medium(m), columns(vertices, directed, n), n, p, clamp_distance, means);
+    const ConnectionSums s = connect_of(wide).connect(medium(m), columns(vertices, directed, n), n, p, clamp_distance,
+                                                      {means, nullptr, nullptr, nullptr});
     sums[0] = s.r, sums[1] = s.g, sums[2] = s.b, sums[3] = s.mean;
     for (size_t i = 0; i < kSimdLanes; ++i)
         sums[4 + i] = s.by_lane[i];

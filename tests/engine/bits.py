@@ -17,8 +17,7 @@ def plain_passes() -> tuple[str, ...]:
 
 
 def all_passes() -> tuple[str, ...]:
-    """But for light groups: with them there are no light vertices."""
-    return tuple(name for name in pass_table() if not name.startswith("light_group_"))
+    return tuple(pass_table())
 
 
 def pictures(render: Render, names: tuple[str, ...] = ()) -> dict[str, Image]:

@@ -16,6 +16,9 @@ struct Cover {
     float part;
 };
 
+/// Light by the group of the light that it comes from, group 1 first.
+using LightGroups = std::array<Rgb, GLIMMER_MAX_LIGHT_GROUPS>;
+
 /// What only some passes show. A renderer that has been asked for none of them carries none of this.
 struct PassSample {
     Rgb emit, environment;
@@ -27,10 +30,14 @@ struct PassSample {
     Vec3f uv;                                            ///< u, v, 1
     float clearness = 0;    ///< 1 less the mist, of the part of the sample that surfaces take up
     float transparency = 0; ///< part of the sample where the picture is empty
-    std::array<Rgb, GLIMMER_MAX_LIGHT_GROUPS> light_groups;
+    LightGroups light_groups;
     std::array<Cover, 8> covers; ///< what the camera sees, the nearest first; what lies behind so many is left out
     uint32_t cover_count = 0;
 
+    void add_groups(const LightGroups &groups, const Rgb &factor) {
+        for (size_t i = 0; i < groups.size(); ++i)
+            light_groups[i] += groups[i] * factor;
+    }
     void expose(float factor) {
         for (Rgb *part : {&emit, &environment, &diffuse_direct, &diffuse_indirect, &glossy_direct, &glossy_indirect,
                           &transmission_direct, &transmission_indirect, &volume_direct, &volume_indirect})

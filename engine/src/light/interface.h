@@ -71,6 +71,7 @@ struct Emission {
     Ray ray;
     Rgb power;
     float dark = 0; ///< length before the ray's beginning in which the light is hidden and absorbed, but not scattered
+    uint8_t group = 0; ///< of a shining mesh: LightFlags::group
 };
 
 /// A sphere around the light and about what it shines with: intensity for a finite light, irradiance for the sun and

@@ -87,6 +87,7 @@ inline Emission emit(const MeshLight &light, bool, Vec2f u_position, Vec2f u_dir
     if (!light.places.empty())
         e.power = light.radiance_at(choice.index, {w.b1, w.b2}, e.ray.direction) * float(kPiDouble * twice_area);
     e.power *= 1 / choice.pmf;
+    e.group = t.group;
     return e;
 }
 

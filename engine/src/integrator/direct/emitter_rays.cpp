@@ -32,7 +32,7 @@ uint32_t EmitterRays::rays(uint32_t pixel_x, uint32_t pixel_y) const {
 }
 
 Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterTime time, Sampler &sampler,
-                     TraceContext &trace) const {
+                     TraceContext &trace, LightGroups *groups) const {
     const auto side = uint32_t(std::lround(std::sqrt(float(rays))));
     const auto strata = float(side);
     Rgb sum;
@@ -49,8 +49,12 @@ Rgb EmitterRays::sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterT
         arena.clear();
         const Rgb emission = scene_.materials.shade(surface, {-ray.direction, 0, ray.time}, arena).emission;
         const BoundedMedia *varying = scene_.medium ? scene_.medium->bounded() : nullptr;
-        sum += emission * (varying && varying->varies() ? varying->estimate_transmittance(ray, hit->t, sampler)
-                                                        : transmittance(scene_.outside(), ray, hit->t));
+        const Rgb seen =
+            emission * (varying && varying->varies() ? varying->estimate_transmittance(ray, hit->t, sampler)
+                                                     : transmittance(scene_.outside(), ray, hit->t));
+        sum += seen;
+        if (const uint8_t group = scene_.passes_of(*hit).light_group; groups && group)
+            (*groups)[group - 1u] += seen;
     }
     return sum;
 }

@@ -21,8 +21,9 @@ class EmitterRays {
     uint32_t rays(uint32_t pixel_x, uint32_t pixel_y) const;
 
     /// The sum over so many camera rays, stratified over the pixel's filter, of the emission of the spheres they meet.
-    Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterTime time, Sampler &sampler,
-            TraceContext &trace) const;
+    /// groups: where not null, each emission is added to the group of its sphere as well.
+    Rgb sum(uint32_t rays, uint32_t pixel_x, uint32_t pixel_y, ShutterTime time, Sampler &sampler, TraceContext &trace,
+            LightGroups *groups) const;
 
   private:
     const Scene &scene_;

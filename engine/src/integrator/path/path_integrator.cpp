@@ -18,13 +18,12 @@ class PathIntegrator final : public Integrator {
                    bool full_kernel)
         : scene_(scene), limits_(limits), flags_(flags),
           around_camera_(dielectrics_at(scene, scene.camera.start_region().center, kMidShutter, RayKind::camera)),
+          // Where a film is transparent, they would shine where alpha is 0.
           emitter_rays_(scene, around_camera_.empty() && !rays_start_apart()
-                                   ? tuning::kEmitterRays * (adds_emitter_rays(flags, passes))
+                                   ? tuning::kEmitterRays * (flags.emitter_rays && !scene.film.transparent)
                                    : 0) {
-        if (passes & kLightGroupPasses) // light vertices have no group
-            light_vertices_.left_out = "light groups: no light vertices, light in fog comes by paths alone";
-        else if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
-            light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_);
+        if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
+            light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_, (passes & kLightGroupPasses) != 0);
         plan_ = plan_splitting(scene, flags);
         plan_.pixel_ris = plan_.pixel_ris && around_camera_.empty() && !rays_start_apart() && limits.depth > 0;
         needed_ = needed_by(scene, flags, light_vertices_.cache != nullptr, passes);
@@ -56,18 +55,24 @@ class PathIntegrator final : public Integrator {
                                   trace)
                 : kernel_->sample(context, camera.ray, around_camera_, sampler, trace);
         if (extra_rays) {
-            const Rgb seen =
-                emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, camera.ray.time, sampler, trace);
+            LightGroups groups;
+            const Rgb seen = emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, camera.ray.time, sampler,
+                                               trace, trace.passes ? &groups : nullptr);
             result.emission += seen * primary_weight;
-            if (trace.passes)
+            if (trace.passes) {
                 trace.passes->emit += seen * primary_weight;
+                trace.passes->add_groups(groups, Rgb(primary_weight));
+            }
         }
         if (light_vertices) {
-            const Rgb splatted = light_vertices->splatted(camera.pixel_x, camera.pixel_y);
+            const size_t pixel = light_vertices->index(camera.pixel_x, camera.pixel_y);
+            const Rgb splatted = light_vertices->splats[pixel];
             result.medium += splatted;
             result.unfinished |= light_vertices->unfinished;
             if (trace.passes)
                 trace.passes->volume_indirect += splatted;
+            if (trace.passes && light_vertices->settings.grouped)
+                trace.passes->add_groups(light_vertices->splat_groups[pixel], Rgb(1));
         }
         return result;
     }
@@ -88,10 +93,6 @@ class PathIntegrator final : public Integrator {
     }
 
   private:
-    /// Emitter rays bring light of no group, and where a film is transparent they would shine where alpha is 0.
-    bool adds_emitter_rays(const EstimatorFlags &flags, uint64_t passes) const {
-        return flags.emitter_rays && !(passes & kLightGroupPasses) && !scene_.film.transparent;
-    }
     /// Whether camera rays start at different places, between which there may be the wall of a dielectric.
     bool rays_start_apart() const {
         return scene_.has_dielectrics && (scene_.camera.start_region().radius > 0 || scene_.moves);

@@ -55,10 +55,17 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
         return false;
     state.rr_scale *= points;
     const DepthLimits room{context_.limits.depth - state.depth - 1, context_.limits.scatter - state.scatter - 1};
+    LightGroups by_group;
+    LightGroups *groups = nullptr;
+    if constexpr (F.passes)
+        if (trace_.passes && context_.light_vertices->settings.grouped)
+            groups = &by_group;
     const Rgb gathered =
-        state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, room, sampler_, trace_);
+        state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, room, sampler_, trace_, groups);
     aov_of_scattering(state, PathClass::medium) += gathered;
     if constexpr (F.passes) {
+        if (groups)
+            trace_.passes->add_groups(by_group, state.beta);
         state.passes.in_medium |= state.depth == 0;
         state.passes.sees_environment = false;
         pass_light(state.passes, gathered, false);

@@ -91,6 +91,7 @@ void BlockVertices::pick_medium(const MediumVertices &vertices, const std::vecto
         return;
     medium_.directed = vertices.directed;
     medium_.counted = vertices.counted;
+    medium_.grouped = vertices.grouped;
     std::vector<float> targets(n), powers(n);
     std::vector<GatherPoint> seen;
     seen.reserve(points.size());
@@ -173,12 +174,13 @@ struct BlockVertices::Connections {
     size_t medium_count = 0, surface_count = 0;
     ConnectionSums medium_sums{};
     alignas(64) std::array<float, tuning::kMediumPicks> medium_parts;
+    alignas(64) std::array<std::array<float, tuning::kMediumPicks>, 3> medium_values; ///< by channel, where grouped
     std::array<float, tuning::kSurfacePicks> surface_parts;
     std::array<Rgb, tuning::kSurfacePicks> surface_values;
 };
 
 Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &room, Sampler &sampler,
-                          TraceContext &rays) const {
+                          TraceContext &rays, LightGroups *groups) const {
     const uint32_t subset = std::min(uint32_t(sampler.next_1d() * float(settings_.subsets)), settings_.subsets - 1);
     const float scale = settings_.clamp_distance_scale(scene_.camera.distance(x));
     const GatherQuery point{x, seen, subset, scale * settings_.medium_clamp_distance,
@@ -188,9 +190,12 @@ Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &
         connect_medium(point, room, connections);
     if (!surface_.empty())
         connect_surface(point, room, connections);
-    if (!(connections.total_part > 0))
-        return connections.total;
-    return correct_visibility(point, connections, sampler.next_1d() * connections.total_part, rays);
+    Hidden hidden;
+    if (connections.total_part > 0)
+        hidden = estimate_hidden(point, connections, sampler.next_1d() * connections.total_part, rays);
+    if (groups)
+        add_by_group(point, connections, hidden, *groups);
+    return connections.total - hidden.value;
 }
 
 void BlockVertices::connect_medium(const GatherQuery &point, const DepthLimits &room, Connections &connections) const {
@@ -207,9 +212,12 @@ void BlockVertices::connect_medium(const GatherQuery &point, const DepthLimits &
         vertices.r = power[0].data(), vertices.g = power[1].data(), vertices.b = power[2].data();
     }
     const GatherPoint place{point.x.x, point.x.y, point.x.z, point.seen.x, point.seen.y, point.seen.z};
-    const ConnectionSums sums =
-        connect_kernels().connect(scene_.medium->simd_view(), vertices, tuning::kMediumPicks, place,
-                                  point.medium_clamp_distance, connections.medium_parts.data());
+    auto &[r, g, b] = connections.medium_values;
+    const ConnectionParts parts = medium_.grouped
+                                      ? ConnectionParts{connections.medium_parts.data(), r.data(), g.data(), b.data()}
+                                      : ConnectionParts{connections.medium_parts.data(), nullptr, nullptr, nullptr};
+    const ConnectionSums sums = connect_kernels().connect(scene_.medium->simd_view(), vertices, tuning::kMediumPicks,
+                                                          place, point.medium_clamp_distance, parts);
     connections.medium_count = tuning::kMediumPicks;
     connections.medium_sums = sums;
     connections.total = Rgb(sums.r, sums.g, sums.b);
@@ -239,8 +247,8 @@ void BlockVertices::connect_surface(const GatherQuery &point, const DepthLimits 
     }
 }
 
-Rgb BlockVertices::correct_visibility(const GatherQuery &point, const Connections &connections, float left,
-                                      TraceContext &rays) const {
+BlockVertices::Hidden BlockVertices::estimate_hidden(const GatherQuery &point, const Connections &connections,
+                                                     float left, TraceContext &rays) const {
     // The sum took every vertex for visible (docs/method.md, section 4).
     for (size_t k = 0; k < connections.surface_count; ++k) {
         const float part = connections.surface_parts[k];
@@ -249,20 +257,20 @@ Rgb BlockVertices::correct_visibility(const GatherQuery &point, const Connection
             const float side = std::copysign(v.error, dot(point.x - v.position, v.geometric));
             const Vec3f from = v.position + v.geometric * side, way = point.x - from;
             const float d = length(way);
-            return correct(connections, connections.surface_values[k], part, {from, way / d, time_, d}, rays);
+            return {hidden(connections, connections.surface_values[k], part, {from, way / d, time_, d}, rays), v.group};
         }
         left -= part;
     }
-    return connections.medium_count ? correct_medium(point, connections, left, rays) : connections.total;
+    return connections.medium_count ? estimate_hidden_medium(point, connections, left, rays) : Hidden{};
 }
 
-Rgb BlockVertices::correct_medium(const GatherQuery &point, const Connections &connections, float left,
-                                  TraceContext &rays) const {
+BlockVertices::Hidden BlockVertices::estimate_hidden_medium(const GatherQuery &point, const Connections &connections,
+                                                            float left, TraceContext &rays) const {
     const size_t k =
         pick_medium_part(connections.medium_parts.data(), connections.medium_count, connections.medium_sums, left);
     const float part = connections.medium_parts[k];
     if (!(part > 0)) // rounding let `left` outlast the surface's parts, and the medium has none
-        return connections.total;
+        return {};
     const size_t j = size_t(point.subset) * tuning::kMediumPicks + k;
     const Vec3f way = medium_.position(j) - point.x;
     const float d = length(way), d0 = point.medium_clamp_distance;
@@ -271,14 +279,29 @@ Rgb BlockVertices::correct_medium(const GatherQuery &point, const Connections &c
                                           : kIsotropicPhase * kIsotropicPhase;
     const Rgb value =
         medium_.power(j) * scene_.medium->transmittance({point.x, way / d, time_}, d) * (phases / (d * d + d0 * d0));
-    return correct(connections, value, part, {point.x, way / d, time_, d}, rays);
+    return {hidden(connections, value, part, {point.x, way / d, time_, d}, rays),
+            medium_.grouped ? medium_.group[j] : uint8_t(0)};
 }
 
-Rgb BlockVertices::correct(const Connections &connections, const Rgb &value, float part, const Ray &ray,
-                           TraceContext &rays) const {
+Rgb BlockVertices::hidden(const Connections &connections, const Rgb &value, float part, const Ray &ray,
+                          TraceContext &rays) const {
     const Rgb arriving = ray.t_max > 0 ? visibility(scene_, ray, RayKind::volume, rays) : Rgb(1);
-    return arriving == Rgb(1) ? connections.total
-                              : connections.total - value * (Rgb(1) - arriving) * (connections.total_part / part);
+    return arriving == Rgb(1) ? Rgb() : value * (Rgb(1) - arriving) * (connections.total_part / part);
+}
+
+void BlockVertices::add_by_group(const GatherQuery &point, const Connections &connections, const Hidden &hidden,
+                                 LightGroups &groups) const {
+    const auto add = [&](uint8_t group, const Rgb &value) {
+        if (group)
+            groups[group - 1u] += value;
+    };
+    const auto &[r, g, b] = connections.medium_values;
+    for (size_t k = 0; k < connections.medium_count; ++k)
+        add(medium_.group[size_t(point.subset) * tuning::kMediumPicks + k], {r[k], g[k], b[k]});
+    for (size_t k = 0; k < connections.surface_count; ++k)
+        if (connections.surface_parts[k] > 0)
+            add(surface_[size_t(point.subset) * tuning::kSurfacePicks + k].vertex.group, connections.surface_values[k]);
+    add(hidden.group, hidden.value * -1);
 }
 
 } // namespace glimmer

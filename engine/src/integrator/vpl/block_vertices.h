@@ -24,12 +24,19 @@ class BlockVertices {
     /// camera), per unit of the weight of scattering at x: all light that was scattered at least once before, each
     /// vertex weighted by w(d) with the clamp distance of x. The sum over one subset of the picks, corrected by one
     /// shadow ray. Unbiased; a single estimate may be negative. room: how many vertices the depth limits leave to the
-    /// light subpath; vertices of greater depth are not joined.
-    Rgb gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &room, Sampler &sampler, TraceContext &rays) const;
+    /// light subpath; vertices of greater depth are not joined. groups: where not null, each part of the sum is added
+    /// to the group of its light as well; the settings must be grouped.
+    Rgb gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &room, Sampler &sampler, TraceContext &rays,
+               LightGroups *groups) const;
 
   private:
     struct GatherQuery;
     struct Connections;
+    /// What the sum takes for visible and is not.
+    struct Hidden {
+        Rgb value;
+        uint8_t group = 0; ///< LightFlags::group of the chosen vertex
+    };
     /// A picked surface vertex with its closures, which all of its connections share.
     struct ShadedVertex {
         SurfaceVertex vertex;
@@ -40,13 +47,17 @@ class BlockVertices {
     Bsdf shade(const SurfaceVertex &v);
     void connect_medium(const GatherQuery &point, const DepthLimits &room, Connections &connections) const;
     void connect_surface(const GatherQuery &point, const DepthLimits &room, Connections &connections) const;
-    /// `connections.total` less what a shadow ray to one vertex, chosen by its part of the sum, shows to be hidden.
-    Rgb correct_visibility(const GatherQuery &point, const Connections &connections, float left,
+    /// What a shadow ray to one vertex, chosen by its part of the sum, shows to be hidden.
+    Hidden estimate_hidden(const GatherQuery &point, const Connections &connections, float left,
                            TraceContext &rays) const;
-    /// correct_visibility() where the chosen vertex is in the medium.
-    Rgb correct_medium(const GatherQuery &point, const Connections &connections, float left, TraceContext &rays) const;
-    /// The correction for a chosen vertex that brings `value` along `ray` and makes up `part` of the sum.
-    Rgb correct(const Connections &connections, const Rgb &value, float part, const Ray &ray, TraceContext &rays) const;
+    /// estimate_hidden() where the chosen vertex is in the medium.
+    Hidden estimate_hidden_medium(const GatherQuery &point, const Connections &connections, float left,
+                                  TraceContext &rays) const;
+    /// What is hidden of a chosen vertex that brings `value` along `ray`, over the probability of the choice: `part` of
+    /// the sum.
+    Rgb hidden(const Connections &connections, const Rgb &value, float part, const Ray &ray, TraceContext &rays) const;
+    void add_by_group(const GatherQuery &point, const Connections &connections, const Hidden &hidden,
+                      LightGroups &groups) const;
 
     const Scene &scene_;
     VplSettings settings_;

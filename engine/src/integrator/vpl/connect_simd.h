@@ -30,12 +30,18 @@ struct ConnectionSums {
     float by_lane[kSimdLanes]; ///< the same, of the vertices lane, lane + 16, lane + 32, ...
 };
 
+/// Where the connections to each vertex go, one array for each number.
+struct ConnectionParts {
+    float *mean;                ///< over the channels
+    float *r, *g, *b = nullptr; ///< null: not wanted
+};
+
 struct ConnectKernels {
     const char *name; ///< of the instruction set
     /// Equation (1) of docs/method.md for `count` vertices, a multiple of 16: power times e^(-sigma d) / (d^2 + d0^2)
-    /// times the phase functions at both ends. Writes each vertex's mean over the channels, and returns the sums.
+    /// times the phase functions at both ends. Returns the sums.
     ConnectionSums (*connect)(const SimdMedium &medium, const VertexColumns &vertices, size_t count,
-                              const GatherPoint &point, float clamp_distance, float *means);
+                              const GatherPoint &point, float clamp_distance, const ConnectionParts &parts);
     /// For each of `count` vertices, a multiple of 16: what it would bring to all points together per unit of its
     /// power, at the mean extinction of the channels and whatever the points' view.
     void (*pick_targets)(const SimdMedium &medium, const VertexColumns &vertices, size_t count,

@@ -27,7 +27,7 @@ inline Float16 along_flight(const Vec3x16 &d, const VertexColumns &v, size_t j, 
 }
 
 ConnectionSums connect(const SimdMedium &medium, const VertexColumns &vertices, size_t count, const GatherPoint &point,
-                       float clamp_distance, float *means) {
+                       float clamp_distance, const ConnectionParts &parts) {
     const Float16 d02(clamp_distance * clamp_distance), third(1 / 3.0f),
         isotropic(kSimdIsotropicPhase * kSimdIsotropicPhase);
     const Float16 sr(-medium.sigma_r), sg(-medium.sigma_g), sb(-medium.sigma_b);
@@ -49,7 +49,9 @@ ConnectionSums connect(const SimdMedium &medium, const VertexColumns &vertices, 
         const Float16 g = (medium.monochromatic ? in_red : exp(sg * d) * scale) * Float16::load(vertices.g + j);
         const Float16 b = (medium.monochromatic ? in_red : exp(sb * d) * scale) * Float16::load(vertices.b + j);
         const Float16 mean = (r + g + b) * third;
-        mean.store(means + j);
+        mean.store(parts.mean + j);
+        if (parts.r)
+            r.store(parts.r + j), g.store(parts.g + j), b.store(parts.b + j);
         red = red + r, green = green + g, blue = blue + b, lanes = lanes + mean;
     }
     ConnectionSums sums;

@@ -33,8 +33,9 @@ class LightSubpath {
                  TraceContext &rays, LightVertices &out)
         : scene_(scene), importance_(importance), settings_(settings), sampler_(sampler), rays_(rays), out_(out) {}
 
-    void trace(const Emission &start, bool from_delta, const InteriorStack &around, float target) {
+    void trace(const Emission &start, bool from_delta, const InteriorStack &around, float target, uint8_t group) {
         target_ = target;
+        group_ = group;
         branches_.push_back({start.ray, start.power, around, from_delta});
         WalkGuard guard(rays_);
         while (!branches_.empty() && guard.goes_on()) {
@@ -90,7 +91,7 @@ class LightSubpath {
     void splat_remainder(const Branch &path) {
         if (!(path.remainder > 0) || !is_in_picture(scene_, path.ray))
             return;
-        SubpathSegment segment{path.ray, path.power, path.remainder};
+        SubpathSegment segment{path.ray, path.power, path.remainder, group_};
         for (;;) { // and behind surfaces that let some of it straight through
             ++rays_.rays;
             const auto hit = scene_.accel->intersect(segment.ray, kSubpathKind);
@@ -139,7 +140,7 @@ class LightSubpath {
         if (weight == 0)
             return;
         const Vec3f before = path.ray.direction;
-        out_.medium.add(x, path.power, before, path.depth);
+        out_.medium.add(x, path.power, before, path.depth, group_);
         split(path, weight, [&](Branch &next) {
             next.from_delta = false;
             next.specular_depth = 0;
@@ -196,7 +197,8 @@ class LightSubpath {
                         surface.v,
                         bsdf.eta,
                         transmits(bsdf) && !crossing,
-                        path.depth};
+                        path.depth,
+                        group_};
         if (!(dot(incoming, v.geometric) > 0))
             return;
         if (!is_specular(bsdf))
@@ -390,6 +392,7 @@ class LightSubpath {
     ClosureArena splat_arena_; ///< of the surfaces that splats pass
     std::vector<Branch> branches_;
     float target_ = 1;
+    uint8_t group_ = 0; ///< LightFlags::group of the subpath's light
 };
 
 /// The share of the subpaths that start at each light: by its power times the importance of its place, in a defensive
@@ -464,6 +467,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
     LightVertices out;
     out.medium.directed = scene.medium && scene.medium->phase().g != 0;
     out.medium.counted = !(settings.limits == DepthLimits{});
+    out.medium.grouped = settings.grouped;
     const LightSet &lights = scene.lights;
     const std::vector<double> shares = start_shares(scene, importance);
     LightSubpath subpath(scene, importance, settings, sampler, rays, out);
@@ -473,6 +477,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
     for (uint32_t i = 0; i < shares.size(); ++i) {
         sum += shares[i] * settings.paths;
         const LightBound &b = lights.bound(i);
+        const uint8_t group = lights.flags(i).group;
         // A sphere shines towards the side that the camera is on; towards both where camera rays may start on both, and
         // where what shines inwards comes out again.
         const auto *sphere = std::get_if<SphereLight>(&lights[i]);
@@ -488,7 +493,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
                 const auto weight = float(1 / (shares[i] * settings.paths));
                 start->emission.power *= weight;
                 const float target = start->body_power * weight * importance(scene.medium->bounded()->bounds_center());
-                subpath.trace(start->emission, start->delta, {}, target);
+                subpath.trace(start->emission, start->delta, {}, target, group);
                 continue;
             }
             const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;
@@ -501,7 +506,7 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
             start->power *= float((both ? 2 : 1) / (shares[i] * settings.paths));
             const float target = max_component(start->power) * importance(b.center);
             subpath.trace(*start, traits(lights[i]).delta, dielectrics_at(scene, start->ray.origin, time, kSubpathKind),
-                          target);
+                          target, start->group ? start->group : group);
         }
     }
     return out;

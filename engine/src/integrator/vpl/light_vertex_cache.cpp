@@ -15,7 +15,7 @@ namespace {
 struct LightVertexWave final : WaveData {
     size_t bytes() const override {
         return (vertices.medium.x.capacity() * 6 + vertices.medium.dx.capacity() * 3) * sizeof(float) +
-               vertices.medium.depth.capacity() * sizeof(VertexDepth) +
+               vertices.medium.depth.capacity() * sizeof(VertexDepth) + vertices.medium.group.capacity() +
                vertices.surface.capacity() * sizeof(SurfaceVertex) + vertices.splats.capacity() * sizeof(Splat);
     }
     uint64_t seed, sample;
@@ -79,8 +79,11 @@ const char *reason_against(const Scene &scene, const DepthLimits &limits, const 
 
 } // namespace
 
-LightVertexCache::LightVertexCache(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera)
-    : scene_(scene), around_camera_(around_camera), settings_(make_vpl_settings(scene, limits, around_camera)) {}
+LightVertexCache::LightVertexCache(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera,
+                                   bool grouped)
+    : scene_(scene), around_camera_(around_camera), settings_(make_vpl_settings(scene, limits, around_camera)) {
+    settings_.grouped = grouped;
+}
 
 std::unique_ptr<const WaveData> LightVertexCache::prepare_wave(uint64_t seed, uint64_t sample,
                                                                TraceContext &rays) const {
@@ -107,18 +110,18 @@ std::unique_ptr<const BlockData> LightVertexCache::prepare_block(const WaveData 
         settings_, BlockVertices(scene_, wave.vertices, settings_, points, wave.time, sampler), block);
     for (const Splat &s : wave.vertices.splats)
         if (s.x - block.x < block.width && s.y - block.y < block.height) // unsigned, so not before the block either
-            shared->splats[size_t(s.y - block.y) * block.width + (s.x - block.x)] += s.radiance;
+            shared->add(s);
     shared->unfinished = wave.vertices.unfinished;
     return shared;
 }
 
 LightVertexPlan plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
-                                        const InteriorStack &around_camera) {
+                                        const InteriorStack &around_camera, bool grouped) {
     if (!scene.medium || !scene.medium->scatters())
         return {};
     if (const char *reason = reason_against(scene, limits, around_camera))
         return {nullptr, std::string("no light vertices shared by all pixels, fog is slower: ") + reason};
-    return {std::make_unique<LightVertexCache>(scene, limits, around_camera), {}};
+    return {std::make_unique<LightVertexCache>(scene, limits, around_camera, grouped), {}};
 }
 
 } // namespace glimmer

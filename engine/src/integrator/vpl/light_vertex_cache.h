@@ -18,21 +18,25 @@ namespace glimmer {
 struct LightVertexBlock final : BlockData {
     LightVertexBlock(const VplSettings &settings_, BlockVertices &&vertices_, const Rectangle &pixels_)
         : settings(settings_), vertices(std::move(vertices_)), pixels(pixels_),
-          splats(size_t(pixels.width) * pixels.height) {}
-    /// Radiance that the splats of the wave add to a pixel of the block.
-    const Rgb &splatted(uint32_t x, uint32_t y) const {
-        return splats[size_t(y - pixels.y) * pixels.width + (x - pixels.x)];
+          splats(size_t(pixels.width) * pixels.height), splat_groups(settings.grouped ? splats.size() : 0) {}
+    size_t index(uint32_t x, uint32_t y) const { return size_t(y - pixels.y) * pixels.width + (x - pixels.x); }
+    void add(const Splat &splat) {
+        const size_t i = index(splat.x, splat.y);
+        splats[i] += splat.radiance;
+        if (settings.grouped && splat.group)
+            splat_groups[i][splat.group - 1u] += splat.radiance;
     }
     VplSettings settings;
     BlockVertices vertices;
     Rectangle pixels;
-    std::vector<Rgb> splats; ///< (height, width)
-    bool unfinished = false; ///< a light subpath of the wave was broken off
+    std::vector<Rgb> splats;               ///< radiance that the splats of the wave add, (height, width)
+    std::vector<LightGroups> splat_groups; ///< the same by group; empty unless grouped
+    bool unfinished = false;               ///< a light subpath of the wave was broken off
 };
 
 class LightVertexCache {
   public:
-    LightVertexCache(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera);
+    LightVertexCache(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera, bool grouped);
 
     /// Traces the light subpaths of a wave.
     std::unique_ptr<const WaveData> prepare_wave(uint64_t seed, uint64_t sample, TraceContext &rays) const;
@@ -51,7 +55,8 @@ struct LightVertexPlan {
     std::string left_out; ///< why there is no cache, a line for the report; empty where no medium scatters
 };
 
-/// The cache for a scene. There is none (docs/method.md, section 9) without a medium that scatters, and for
+/// The cache for a scene. grouped: passes show light by its group. There is none (docs/method.md, section 9) without a
+/// medium that scatters, and for
 /// - media within surfaces, unless it is one, within one convex body, in a scene without glass;
 /// - a phase function with too narrow a peak, which all but unbounds the connections;
 /// - a camera within a dielectric, whose rays do not scatter in the medium;
@@ -59,6 +64,6 @@ struct LightVertexPlan {
 /// - a medium so dense and white that light wanders through all of the scene;
 /// - lights that are all infinite, from which no light subpath could start.
 LightVertexPlan plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
-                                        const InteriorStack &around_camera);
+                                        const InteriorStack &around_camera, bool grouped);
 
 } // namespace glimmer

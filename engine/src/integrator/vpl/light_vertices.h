@@ -25,23 +25,28 @@ struct VertexDepth {
 struct MediumVertices {
     bool directed = false; ///< whether directions are kept; an isotropic medium has no use for them
     bool counted = false;  ///< whether depths are kept; without depth limits there is no use for them
+    bool grouped = false;  ///< whether groups are kept; only passes show them
     std::vector<float> x, y, z, r, g, b;
     std::vector<float> dx, dy, dz;  ///< unit, of flight before the scattering; empty unless directed
     std::vector<VertexDepth> depth; ///< empty unless counted
+    std::vector<uint8_t> group;     ///< LightFlags::group; empty unless grouped
 
     size_t size() const { return x.size(); }
-    void add(const Vec3f &position, const Rgb &power, const Vec3f &direction, const VertexDepth &vertex_depth) {
+    void add(const Vec3f &position, const Rgb &power, const Vec3f &direction, const VertexDepth &vertex_depth,
+             uint8_t light_group) {
         x.push_back(position.x), y.push_back(position.y), z.push_back(position.z);
         r.push_back(power.r), g.push_back(power.g), b.push_back(power.b);
         if (directed)
             dx.push_back(direction.x), dy.push_back(direction.y), dz.push_back(direction.z);
         if (counted)
             depth.push_back(vertex_depth);
+        if (grouped)
+            group.push_back(light_group);
     }
-    /// Adds vertex i of `others`, which must be directed and counted alike, with its power scaled.
+    /// Adds vertex i of `others`, which must be directed, counted and grouped alike, with its power scaled.
     void add(const MediumVertices &others, size_t i, float scale) {
         add(others.position(i), others.power(i) * scale, directed ? others.direction(i) : Vec3f(),
-            counted ? others.depth[i] : VertexDepth());
+            counted ? others.depth[i] : VertexDepth(), grouped ? others.group[i] : uint8_t(0));
     }
     Vec3f direction(size_t i) const { return {dx[i], dy[i], dz[i]}; }
     Vec3f position(size_t i) const { return {x[i], y[i], z[i]}; }
@@ -60,6 +65,7 @@ struct SurfaceVertex {
     float eta;       ///< Bsdf::eta as seen from the side of `incoming`
     bool both_sides; ///< light leaves on the other side as well, into the same medium
     VertexDepth depth;
+    uint8_t group; ///< LightFlags::group
 };
 
 struct LightVertices {

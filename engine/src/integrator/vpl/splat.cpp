@@ -26,9 +26,11 @@ RayInterval range_in_picture(const Scene &scene, const Ray &ray) {
     return scene.camera.clip(ray, film_reached(scene.film));
 }
 
-/// Splats a point that scatters `power`, which arrives along `direction`.
-void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, ShutterTime time, const Rgb &power,
+/// Splats the point x of the segment, which scatters `power` there.
+void splat_point(const Scene &scene, const Vec3f &x, const SubpathSegment &segment, const Rgb &power,
                  const VplSettings &settings, Sampler &sampler, TraceContext &rays, std::vector<Splat> &out) {
+    const Vec3f &direction = segment.ray.direction;
+    const ShutterTime time = segment.ray.time;
     const Camera &camera = scene.camera;
     const Vec2f u_lens = sampler.next_2d();
     const auto seen = camera.project(x, camera.has_lens() ? sample_uniform_disk(u_lens) : Vec2f{}, time);
@@ -61,7 +63,7 @@ void splat_point(const Scene &scene, const Vec3f &x, const Vec3f &direction, Shu
                 arriving = radiance * visibility(scene, way, RayKind::camera, rays);
             if (is_black(*arriving))
                 return;
-            out.push_back({uint32_t(px), uint32_t(py), *arriving * weight});
+            out.push_back({uint32_t(px), uint32_t(py), *arriving * weight, segment.group});
         }
 }
 
@@ -90,7 +92,7 @@ void splat(const Scene &scene, const SubpathSegment &segment, const VplSettings 
         if (!(pdf > 0) || !(t >= 0 && t < kInfinity))
             continue;
         const Vec3f x = segment.ray.origin + segment.ray.direction * t;
-        splat_point(scene, x, segment.ray.direction, segment.ray.time,
+        splat_point(scene, x, segment,
                     segment.power * medium.scattering(segment.ray, t) * medium.transmittance(segment.ray, t) *
                         (segment.remainder / pdf),
                     settings, sampler, rays, out);

@@ -16,6 +16,7 @@ namespace glimmer {
 struct Splat {
     uint32_t x, y;
     Rgb radiance;
+    uint8_t group; ///< LightFlags::group
 };
 
 /// The fraction that splats bring of the remainder that a surface sends along `light` (unit, of flight) to a point of
@@ -32,6 +33,7 @@ struct SubpathSegment {
     Ray ray; ///< t_max: where the segment ends
     Rgb power;
     float remainder; ///< fraction of the power that connections do not carry (bounded_fraction.h)
+    uint8_t group;   ///< LightFlags::group
 };
 
 /// Whether a ray can lie in the picture at all, whatever stands in the way.

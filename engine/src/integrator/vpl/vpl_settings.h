@@ -17,6 +17,7 @@ class Scene;
 
 struct VplSettings {
     DepthLimits limits;                  ///< of a whole path, from the camera to the light
+    bool grouped = false;                ///< vertices and splats know the group of their light
     uint32_t paths = 0;                  ///< light subpaths a wave
     uint32_t gathers = tuning::kGathers; ///< gather points on a segment that the camera sees directly
     uint32_t subsets = tuning::kSubsets; ///< interleaved subsets of a block's picks; each gather point takes one
