@@ -2,7 +2,7 @@
 """What tests/bench/compare.py makes of pictures whose difference is known; and the page it writes of a real file."""
 
 import re
-from dataclasses import replace
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,9 @@ import pytest
 from tests.bench.compare import (
     BLOCK,
     SEEDS,
+    TOLERANCE,
     Rendered,
+    Values,
     blocks_of,
     compare,
     difference_picture,
@@ -24,11 +26,21 @@ from tests.bench.compare import (
 HEIGHT, WIDTH = 3 * BLOCK + 5, 4 * BLOCK
 
 
+def rendered(pictures: Values, view: Callable[[Values], Values] = lambda linear: linear) -> Rendered:
+    """By a view transform."""
+    without = (pictures.sum(axis=0) - pictures) / (len(pictures) - 1)
+    return Rendered(pictures, view(pictures.mean(axis=0)), view(without), 1.0, 1 << 20, (), "0")
+
+
+def noise_of(seed: int, amount: float) -> Values:
+    return amount * np.random.default_rng(seed).standard_normal((SEEDS, HEIGHT, WIDTH, 3))
+
+
 def noisy(seed: int, noise: float, brighter: float = 0.0) -> Rendered:
     """A grey picture; its first block, at the bottom left, is brighter."""
-    pictures = 0.5 + noise * np.random.default_rng(seed).standard_normal((SEEDS, HEIGHT, WIDTH, 3))
+    pictures = 0.5 + noise_of(seed, noise)
     pictures[:, :BLOCK, :BLOCK] += brighter
-    return Rendered(pictures, pictures, 1.0, 1 << 20, (), "0")
+    return rendered(pictures)
 
 
 def test_blocks_are_means_also_where_the_picture_ends() -> None:
@@ -59,7 +71,17 @@ def test_a_block_that_differs_is_found_where_it_is() -> None:
 
 def test_a_block_darker_than_the_tolerance_allows_differs_too() -> None:
     cycles = noisy(1, 0.01)
-    assert judge(cycles, replace(cycles, display=cycles.display - 0.1)).apart == 16
+    assert judge(cycles, rendered(cycles.linear - 0.1)).apart == 16
+
+
+def test_noise_that_the_view_cuts_off_is_no_difference() -> None:
+    # A twelfth of the light of single pixels is cut off, which would make the noisy picture the darker one.
+    def view(linear: Values) -> Values:
+        return np.clip(linear, 0.0, 1.0)
+
+    noise = noise_of(1, 0.3)
+    assert 0.9 - view(0.9 + noise).mean() > TOLERANCE
+    assert judge(rendered(0.9 + noise, view), rendered(0.9 + 0.0 * noise, view)).apart == 0
 
 
 def test_png_is_read_back(tmp_path: Path) -> None:

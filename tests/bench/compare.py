@@ -8,6 +8,7 @@ engines run one after the other, each in a process of its own, so that memory an
 import argparse
 import html
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -22,7 +23,7 @@ from numpy.typing import NDArray
 
 ENGINES = ("CYCLES", "GLIMMER")
 NAMES = {"CYCLES": "Cycles", "GLIMMER": "Glimmer"}
-SEEDS = 4  # renders by each engine; their spread is the noise
+SEEDS = 6  # renders by each engine; their spread is the noise
 BLOCK = 12  # pixels
 TOLERANCE = 0.05  # of the display range: what a block may differ and the picture is still the same
 SIGMAS = 3.0  # of noise that are taken off a difference
@@ -38,10 +39,11 @@ class CompareError(Exception):
 
 @dataclass(frozen=True)
 class Rendered:
-    """By one engine: (seeds, height, width, 3) in linear light and as shown, bottom row first."""
+    """By one engine, bottom row first."""
 
-    linear: Values
-    display: Values
+    linear: Values  # (seeds, height, width, 3)
+    mean: Values  # (height, width, 3): of the seeds, as shown
+    without: Values  # (seeds, height, width, 3): the mean without each of them, as shown
     cpu: float  # seconds of all seeds
     peak_bytes: int  # of Blender's process
     notices: tuple[str, ...]
@@ -71,13 +73,23 @@ def blocks_of(pictures: Values, size: int = BLOCK) -> Values:
     return np.asarray(sums / counts[..., None])
 
 
+def shown_blocks(item: Rendered) -> tuple[Values, Values]:
+    """(rows, columns, 3) each: the means of blocks as shown, and their variances, by the jackknife.
+
+    A view transform is no straight line: the mean of noisy pixels that went through it is not what it makes of their
+    mean. So it is applied to means of all seeds, and what is left of the noise's effect there is taken off."""
+    count = len(item.linear)
+    pseudo = count * blocks_of(item.mean) - (count - 1) * blocks_of(item.without)
+    return pseudo.mean(axis=0), pseudo.var(axis=0, ddof=1) / count
+
+
 def judge(cycles: Rendered, glimmer: Rendered) -> Verdict:
     """Blocks are compared as shown, and their ratios in linear light."""
-    shown = [blocks_of(item.display) for item in (cycles, glimmer)]
-    variance = np.sum([blocks.var(axis=0, ddof=1) / len(blocks) for blocks in shown], axis=0)
+    (first, first_variance), (second, second_variance) = (shown_blocks(item) for item in (cycles, glimmer))
+    variance = first_variance + second_variance
     # A few seeds may agree by luck: no block is taken to be quieter than half of the others are.
     error = np.sqrt(np.maximum(variance, np.median(variance)))
-    difference = shown[1].mean(axis=0) - shown[0].mean(axis=0)
+    difference = second - first
     beyond = np.sign(difference) * np.maximum(np.abs(difference) - SIGMAS * error, 0.0)
     light = [blocks_of(item.linear).mean(axis=(0, -1)) for item in (cycles, glimmer)]
     floor = 1e-3 * max(float(light[0].mean()), 1e-9)
@@ -162,6 +174,26 @@ is brighter; blue: Cycles.</p>
 """
 
 
+def reason(result: subprocess.CompletedProcess[str], told: Path, file: str) -> str:
+    """Why Blender made none: in its own words, or how it ended."""
+    if told.exists():
+        return told.read_text()
+    saved_by = blend_version(Path(file))
+    by = f" ({Path(file).name} was saved by Blender {saved_by})" if saved_by else ""
+    last = (result.stdout + result.stderr)[-1500:]
+    return f"Blender ended with status {result.returncode}{by}. Its last words:\n{last}"
+
+
+def blend_version(file: Path) -> str:
+    """Of the Blender that saved a file that is not compressed, as "3.4"; "" where the file does not say."""
+    with file.open("rb") as stream:
+        found = re.match(rb"BLENDER[-_][vV](\d)(\d\d)|BLENDER\d\d-\d\dv(\d\d)(\d\d)", stream.read(17))
+    if not found:
+        return ""
+    major, minor = (part for part in found.groups() if part is not None)
+    return f"{int(major)}.{int(minor)}"
+
+
 def render(command: Sequence[str], engine: str, job: dict[str, Any], timeout: float) -> Rendered:
     folder = Path(job["folder"])
     path = folder / "job.json"
@@ -172,11 +204,11 @@ def render(command: Sequence[str], engine: str, job: dict[str, Any], timeout: fl
     except subprocess.TimeoutExpired:
         raise CompareError(f"{NAMES[engine]} was not done after {timeout:g} s") from None
     if result.returncode != 0:
-        raise CompareError(f"{NAMES[engine]} made no picture:\n{(result.stdout + result.stderr)[-3000:]}")
+        raise CompareError(f"{NAMES[engine]} made no picture: {reason(result, folder / f'{engine}.txt', job['file'])}")
     told = json.loads((folder / f"{engine}.json").read_text())
     with np.load(folder / f"{engine}.npz") as arrays:
-        linear, display = arrays["linear"], arrays["display"]
-    return Rendered(linear, display, told["cpu"], told["peak_bytes"], tuple(told["notices"]), told["version"])
+        linear, mean, without = arrays["linear"], arrays["mean"], arrays["without"]
+    return Rendered(linear, mean, without, told["cpu"], told["peak_bytes"], tuple(told["notices"]), told["version"])
 
 
 def compare(command: Sequence[str], file: Path, size: tuple[int, int], output: Path, said: str, timeout: float) -> str:

@@ -3,7 +3,8 @@
 
 JOB.json holds "file", "engine" (CYCLES or GLIMMER), "width" in pixels, "samples", "seeds" (how many) and "folder".
 Leaves ENGINE.png, as the file's view transform shows the mean of the seeds, and ENGINE.npz: "linear" (seeds, height,
-width, 3) and "display", the same through that transform, bottom row first. And ENGINE.json: seconds, memory, notices.
+width, 3), "mean", their mean through that transform (height, width, 3), and "without", for each seed the mean of all
+others through it (seeds, height, width, 3), bottom row first. And ENGINE.json: seconds, memory, notices.
 """
 
 import json
@@ -40,7 +41,8 @@ def through_view(scene: Any, linear: Any, path: Path) -> Any:
     """Writes linear light as the PNG that the scene's view transform makes of it, and returns that, 0 to 1."""
     height, width = linear.shape[:2]
     image = bpy.data.images.new("Mean", width, height, float_buffer=True, is_data=False)
-    image.pixels.foreach_set(np.concatenate([linear, np.ones((height, width, 1), np.float32)], axis=2).ravel())
+    rgba = np.concatenate([linear, np.ones((height, width, 1))], axis=2, dtype=np.float32)
+    image.pixels.foreach_set(rgba.ravel())
     settings = scene.render.image_settings
     settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "8"
     image.save_render(str(path), scene=scene)
@@ -71,6 +73,8 @@ def main(job: dict[str, Any]) -> None:
         addon_utils.enable("cycles", default_set=False)
     bpy.ops.wm.open_mainfile(filepath=job["file"], load_ui=False, use_scripts=False)
     scene, folder, engine = bpy.context.scene, Path(job["folder"]), job["engine"]
+    if scene.camera is None:
+        raise RuntimeError(f"scene '{scene.name}' has no camera")
     prepare(scene, job)
     linear, cpu, wall = [], [], []
     for seed in range(job["seeds"]):
@@ -92,10 +96,11 @@ def main(job: dict[str, Any]) -> None:
         notices = [*report["export"]["notices"], *report["warnings"]]
     peak_bytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
     scratch = folder / f"{engine}_seed.png"
-    display = [through_view(scene, picture, scratch) for picture in linear]
+    total = np.sum(linear, axis=0, dtype=np.float64)
+    without = [through_view(scene, (total - picture) / max(len(linear) - 1, 1), scratch) for picture in linear]
     scratch.unlink()
-    through_view(scene, np.mean(linear, axis=0), folder / f"{engine}.png")
-    np.savez(folder / f"{engine}.npz", linear=np.array(linear), display=np.array(display))
+    mean = through_view(scene, total / len(linear), folder / f"{engine}.png")
+    np.savez(folder / f"{engine}.npz", linear=np.array(linear), mean=mean, without=np.array(without))
     told = {
         "cpu": sum(cpu),
         "wall": sum(wall),
@@ -106,5 +111,15 @@ def main(job: dict[str, Any]) -> None:
     (folder / f"{engine}.json").write_text(json.dumps(told))
 
 
+def run(job: dict[str, Any]) -> None:
+    """Why there is no picture stands in ENGINE.txt, as a line."""
+    try:
+        main(job)
+    except Exception as error:
+        lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+        Path(job["folder"], f"{job['engine']}.txt").write_text(lines[0] if lines else type(error).__name__)
+        raise
+
+
 if __name__ == "__main__":
-    main(json.loads(Path(sys.argv[sys.argv.index("--") + 1 if "--" in sys.argv else 1]).read_text()))
+    run(json.loads(Path(sys.argv[sys.argv.index("--") + 1 if "--" in sys.argv else 1]).read_text()))

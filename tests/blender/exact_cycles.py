@@ -16,6 +16,7 @@ SETTINGS = {
     "caustics_refractive": True,
     "pixel_filter_type": "BOX",
     "use_light_tree": True,
+    "use_fast_gi": False,
     "volume_biased": True,  # the volumes of later versions have a mean error, which depends on the sample count
     **{
         f"{kind}_bounces": MOST_BOUNCES
