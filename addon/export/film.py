@@ -55,6 +55,8 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
             f"Pixels of aspect {render.pixel_aspect_x:g} : {render.pixel_aspect_y:g} are not supported; set both under"
             " Output properties > Format > Aspect to 1"
         )
+    if getattr(getattr(scene, "cycles", None), "use_fast_gi", False):
+        notices.add("", "Fast GI Approximation is not done; light bounces as it does without it")
     if render.use_multiview:
         notices.add("", "stereoscopy is not supported; every view is the camera's own")
     size = full_size(render)

@@ -125,6 +125,8 @@ def _color(data: bpy.types.Light, where: str, notices: Notices) -> Rgb:
 
 def _note_differences(item: bpy.types.Object, matrix: Floats, where: str, version: Version, notices: Notices) -> None:
     data = item.data
+    if not getattr(getattr(data, "cycles", None), "use_multiple_importance_sampling", True):
+        notices.add(where, "shows in mirrors, where a lamp without Multiple Importance does not show in Cycles")
     if data.type == "SPOT" and data.use_square:
         notices.add(where, "a square spot is not supported; it is round")
     scale = np.linalg.norm(matrix[:3, :3], axis=0)
