@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .color import blackbody, luminance, mean_fresnel, srgb_to_linear
+from .color import blackbody, luminance, mean_fresnel
+from .color_space import to_linear
 from .sockets import Constant, Input, NotConstantError, Source, as_color, as_number, default_value
 
 if TYPE_CHECKING:
@@ -166,11 +167,10 @@ def stored_pixels(image: bpy.types.Image) -> NDArray[np.float32]:
 def read_image(image: bpy.types.Image) -> NDArray[np.float32]:
     """(height, width, channels), linear, bottom row first. Raises as `stored_pixels`."""
     pixels = stored_pixels(image)
-    channels = image.channels
-    if not image.is_float and image.colorspace_settings.name.startswith("sRGB"):
-        pixels[..., :3] = srgb_to_linear(pixels[..., :3])
-    if channels < 3:
+    if image.channels < 3:
         pixels = np.repeat(pixels[..., :1], 3, axis=2)
+    if not image.is_float:
+        pixels[..., :3] = to_linear(pixels[..., :3], image.colorspace_settings.name)
     return pixels
 
 

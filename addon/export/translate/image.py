@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...scene.program import Op, Texture
+from ..color_space import DATA_SPACES, SRGB, is_known, to_linear
 from ..fold import read_image, stored_pixels
 from .values import Triple, Value, math, number, op, triple, vector_math
 
@@ -30,12 +31,6 @@ PROJECTIONS = {
 }
 INTERPOLATIONS = {"Linear": "linear", "Closest": "closest", "Cubic": "cubic", "Smart": "cubic"}
 EXTENSIONS = {"REPEAT": "repeat", "EXTEND": "extend", "CLIP": "clip", "MIRROR": "mirror"}
-
-# Colour spaces whose numbers are no colours, and those whose colours are linear already.
-DATA_SPACES = ("Non-Color", "Raw", "Generic Data", "Non-Colour Data")
-LINEAR_SPACES = ("Linear", "Linear Rec.709")
-KNOWN_SPACES = (*DATA_SPACES, *LINEAR_SPACES, "sRGB")
-
 
 LayerProperty = Callable[[str], tuple[float, float, float, float]]
 
@@ -82,7 +77,7 @@ class Images:
 def _read(image: Any) -> Texture:
     pixels = stored_pixels(image)
     channels = image.channels
-    is_srgb = not image.is_float and image.colorspace_settings.name not in DATA_SPACES + LINEAR_SPACES
+    space = image.colorspace_settings.name
     has_alpha = channels in (2, 4)
     if has_alpha and image.alpha_mode == "NONE":
         pixels[..., -1] = 1.0
@@ -93,11 +88,26 @@ def _read(image: Any) -> Texture:
         if off and image.alpha_mode == "STRAIGHT":
             pixels[..., :-1] *= pixels[..., -1:]
         return Texture(image.name, _without_alpha(pixels))
+    if not is_known(space):
+        return Texture(
+            image.name, _without_alpha(_linear(pixels, space, apart and not (off and image.alpha_mode == "PREMUL")))
+        )
     encoded = np.round(pixels * 255.0).astype(np.uint8)
     if apart and not (off and image.alpha_mode == "PREMUL"):
         # In whole numbers, as Blender keeps them.
         encoded[..., :-1] = encoded[..., :-1].astype(np.uint16) * encoded[..., -1:] // 255
-    return Texture(image.name, _without_alpha(encoded), srgb=is_srgb)
+    return Texture(image.name, _without_alpha(encoded), srgb=space == SRGB)
+
+
+def _linear(pixels: Any, space: str, is_straight: bool) -> Any:
+    """is_straight: colours are still to be multiplied by their alpha."""
+    channels = pixels.shape[2]
+    colors = pixels[..., :3] if channels >= 3 else np.repeat(pixels[..., :1], 3, axis=2)
+    linear = to_linear(colors, space)
+    if channels not in (2, 4):
+        return linear
+    alpha = pixels[..., -1:]
+    return np.concatenate([linear * alpha if is_straight else linear, alpha], axis=2)
 
 
 def _is_association_off(image: Any) -> bool:
@@ -142,9 +152,6 @@ def image_texture(nodes: Nodes, source: Source) -> Value:
 
 def _texture_of(nodes: Nodes, node: Any) -> Texture:
     image = node.image
-    space = image.colorspace_settings.name
-    if not image.is_float and space not in KNOWN_SPACES:
-        nodes.notice(node, f"the colour space '{space}' of image '{image.name}' is read as sRGB")
     if image.source == "MOVIE":
         nodes.notice(node, f"movie '{image.name}' is shown by the frame that Blender holds of it")
     if image.source == "SEQUENCE":
