@@ -119,11 +119,8 @@ def export_volume(
 
 
 def viewport_surface(material: bpy.types.Material) -> Surface:
-    """The material without nodes."""
-    color = _rgb(material.diffuse_color)
-    if material.metallic > 0.5:
-        return Conductor(alpha=material.roughness**2, f0=_clipped(color))
-    return Lambert(_clipped(color))
+    """The material without nodes: as in Cycles, its viewport colour alone."""
+    return Lambert(_clipped(_rgb(material.diffuse_color)))
 
 
 def _rgb(color: Any) -> Rgb:
@@ -157,8 +154,8 @@ class _Shaders:
     def output(self) -> Material:
         surface = self.nodes.surface_of_output()
         if surface is None:
-            self.notices.add(self.where, "has no output node; its viewport colour is used")
-            return Lambert(_clipped(self.viewport_color))
+            self.notices.add(self.where, "has no output node; it is black, as in Cycles")
+            return Lambert(BLACK)
         self.nodes.bumped_normal = self.normal = bump_of_displacement(self.nodes, self.material)
         if self.nodes.source(surface) is None:
             volume = self.nodes.surface_of_output("Volume")
@@ -185,6 +182,10 @@ class _Shaders:
         source = self.nodes.source(item)
         if source is None or source.node is None:
             return Light(BLACK)  # an empty socket adds no light and takes all of it
+        if source.output.type != "SHADER":
+            return self.light(
+                triple(self.nodes.value(item)), source
+            )  # a value where a shader should be shines, as in Cycles
         translate = _SHADERS.get(source.node.bl_idname)
         if translate is None:
             return self._unknown(source)
@@ -255,7 +256,9 @@ class _Shaders:
     # ---- Shaders ----
 
     def emission(self, source: Source) -> Material:
-        radiance = scaled(self.varying(source, "Color"), self.varying_number(source, "Strength"))
+        return self.light(scaled(self.varying(source, "Color"), self.varying_number(source, "Strength")), source)
+
+    def light(self, radiance: Triple, source: Source) -> Material:
         if isinstance(radiance, Op):
             return Light(radiance)
         if min(radiance) < 0.0:
@@ -427,6 +430,7 @@ class _Shaders:
 
 _SHADERS: dict[str, Callable[[_Shaders, Source], Material]] = {
     "ShaderNodeEmission": _Shaders.emission,
+    "ShaderNodeBackground": _Shaders.emission,
     "ShaderNodeBsdfDiffuse": _Shaders.diffuse,
     "ShaderNodeBsdfGlossy": _Shaders.glossy,
     "ShaderNodeBsdfAnisotropic": _Shaders.glossy,

@@ -28,6 +28,11 @@ if TYPE_CHECKING:
     from .grids import Grid
 
 
+# The Cycles of 3.4 makes 0 of an input that a muted node passes on with nothing linked to it; that of 5.0 leaves what
+# the muted node is linked to by itself.
+MUTED_IS_BLACK_BEFORE = (5, 0)
+
+
 def unknown_mode(value: Value) -> str | None:
     """A mode of an operation that the engine does not have: a newer Blender's nodes may know more than we do."""
     if not isinstance(value, Op):
@@ -97,6 +102,9 @@ class Nodes:
                 if not inner:
                     return None
                 socket = inner[0].from_socket
+                if not socket.is_linked:
+                    is_black = socket.type != "SHADER" and self.version < MUTED_IS_BLACK_BEFORE
+                    return Source(None, socket, groups, kinds, is_muted=True) if is_black else None
             elif node.bl_idname == "NodeReroute":
                 socket = node.inputs[0]
             elif node.bl_idname == "NodeGroupInput":
@@ -138,7 +146,7 @@ class Nodes:
 
     def _source_value(self, source: Source) -> Value:
         if source.node is None:
-            return default_value(source.output)
+            return source.own_value()
         width = self.shift_width if isinstance(self.shift_width, float) else id(self.shift_width)
         key = (source.output.as_pointer(), *(group.as_pointer() for group in source.groups), self.shift, width)
         if key not in self._values:
@@ -244,7 +252,7 @@ class Nodes:
         if source is None:
             return default_value(item.socket)
         if source.node is None:
-            return default_value(source.output)
+            return source.own_value()
         return self._folded(source, means)
 
     def _folded(self, source: Source, means: bool) -> Constant:

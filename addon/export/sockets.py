@@ -20,6 +20,12 @@ class Source:
     output: Any
     groups: tuple[Any, ...]
     kinds: tuple[str, ...] = ()  # of the sockets of groups on the way, each of which converts, from the input back
+    is_muted: bool = False  # it is an input that a muted node passes on, with nothing linked to it
+
+    def own_value(self) -> Constant:
+        """Where no node makes it: the socket's, but black or 0 by way of a muted node."""
+        value = default_value(self.output)
+        return (0.0,) * len(value) if self.is_muted else value
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from .color import add_colors, lerp, scaled
 from .light import UNLIMITED_BOUNCES
 from .nodes import Nodes
 from .sockets import Input, NotConstantError, Source
-from .translate.image import Images
+from .translate.image import MISSING, Images
 from .translate.values import Triple, added, clamped
 from .translate.values import lerp as blended
 from .translate.values import scaled as scaled_by
@@ -222,12 +222,14 @@ class _Background:
     def _image(self, source: Source) -> Environment:
         node = source.node
         image = node.image
-        if image is None:
-            return self._fallback(node, "has no image")
         try:
+            if image is None:
+                raise ValueError("has no image")
             pixels = self.nodes.images.picture(image)
         except (ValueError, RuntimeError) as error:
-            return self._fallback(node, f"cannot read image '{image.name}': {error}")
+            name = "" if image is None else f"image '{image.name}' "
+            self.nodes.notice(node, f"{name}{error}; shown in magenta, as in Cycles")
+            return Environment(radiance=MISSING)
         if node.projection != "EQUIRECTANGULAR":
             self.nodes.notice(node, "a mirror ball is not supported; the image is read as equirectangular")
         # The engine wants finite light that is not negative, top row first.
