@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Attribute, Floats
-from .translate.surface import ACTIVE_COLOR, ACTIVE_UV, GENERATED, ISLAND, TANGENT_PREFIX, named
+from .translate.surface import ACTIVE_COLOR, ACTIVE_UV, GENERATED, ISLAND, POINTINESS, TANGENT_PREFIX, named
 
 if TYPE_CHECKING:
     import bpy
@@ -25,7 +25,15 @@ FIELDS = {
     "FLOAT_COLOR": ("color", 4),
     "BYTE_COLOR": ("color", 4),
 }
-DOMAINS = {"POINT": "vertex", "CORNER": "corner", "FACE": "face"}
+BYTES_FROM = (5, 0)  # Cycles 3.4 does not know numbers of 8 bits, that of 5.0 does
+DOMAINS = ("POINT", "EDGE", "CORNER", "FACE")
+
+
+def is_known(data_type: str) -> bool:
+    """Whether Cycles knows attributes of a kind."""
+    import bpy
+
+    return data_type in FIELDS and (data_type != "INT8" or bpy.app.version >= BYTES_FROM)
 
 
 class AttributeReader:
@@ -58,6 +66,8 @@ class AttributeReader:
             return self._tangents(name[len(TANGENT_PREFIX) :])
         if name == ISLAND:
             return "face", self._islands()
+        if name == POINTINESS:
+            return "corner", self._pointiness()[self._corner_vertices[self._corners]]
         if not name.startswith(named("")):
             return None  # of instances
         own = name[len(named("")) :]
@@ -75,11 +85,22 @@ class AttributeReader:
         scale, offset = texture_space(self._mesh)
         return rest.reshape(-1, 3) * scale + offset
 
-    def _islands(self) -> Floats:
-        """(triangles, 1): a number of 0 to 1 that all triangles of a connected part share."""
+    def _edges(self) -> NDArray[np.int32]:
+        """(edges, 2)."""
         edges = np.empty(2 * len(self._mesh.edges), np.int32)
         self._mesh.edges.foreach_get("vertices", edges)
-        roots = np.array(island_roots(len(self._mesh.vertices), edges.reshape(-1, 2).tolist()), np.uint32)
+        return edges.reshape(-1, 2)
+
+    def _pointiness(self) -> Floats:
+        """(vertices, 1)."""
+        positions, normals = (np.empty(3 * len(self._mesh.vertices), np.float32) for _ in range(2))
+        self._mesh.vertices.foreach_get("co", positions)
+        self._mesh.vertices.foreach_get("normal", normals)
+        return pointiness(positions.reshape(-1, 3), normals.reshape(-1, 3), self._edges()).astype(np.float32)[:, None]
+
+    def _islands(self) -> Floats:
+        """(triangles, 1): a number of 0 to 1 that all triangles of a connected part share."""
+        roots = np.array(island_roots(len(self._mesh.vertices), self._edges().tolist()), np.uint32)
         first = self._corner_vertices[self._corners.reshape(-1, 3)[:, 0]]
         return (hash_words(roots[first]) / np.float64(0xFFFFFFFF)).astype(np.float32)[:, None]
 
@@ -95,7 +116,7 @@ class AttributeReader:
 
     def _color(self, attribute: Any) -> tuple[str, Floats] | None:
         """Of an attribute of any kind."""
-        if attribute is None or attribute.data_type not in FIELDS or attribute.domain not in DOMAINS:
+        if attribute is None or not is_known(attribute.data_type) or attribute.domain not in DOMAINS:
             return None
         field, width = FIELDS[attribute.data_type]
         if attribute.data_type in ("INT", "INT8", "BOOLEAN"):
@@ -106,7 +127,9 @@ class AttributeReader:
             values = np.empty(width * len(attribute.data), np.float32)
             attribute.data.foreach_get(field, values)
             values = values.reshape(-1, width)
-        if attribute.domain == "POINT":
+        if attribute.domain == "EDGE":
+            values = mean_at_vertices(values, self._edges(), len(self._mesh.vertices))
+        if attribute.domain in ("POINT", "EDGE"):
             return "corner", values[self._corner_vertices[self._corners]]
         if attribute.domain == "CORNER":
             return "corner", values[self._corners]
@@ -136,6 +159,35 @@ def texture_space(mesh: bpy.types.Mesh) -> tuple[Floats, Floats]:
     location, size = (np.array(getattr(mesh, f"texspace_{what}"), np.float64) for what in ("location", "size"))
     inverse = np.where(size != 0.0, 0.5 / np.where(size != 0.0, size, 1.0), 0.0)
     return inverse, 0.5 - location * inverse
+
+
+def mean_at_vertices(values: Floats, edges: NDArray[np.integer], count: int) -> Floats:
+    """(edges, width) -> (vertices, width): the mean over each vertex's edges, 0 where it has none."""
+    ends, rows = edges.reshape(-1), np.repeat(values, 2, axis=0)
+    sums = np.stack([np.bincount(ends, column, count) for column in rows.T], axis=1)
+    return np.asarray(sums / np.maximum(np.bincount(ends, minlength=count), 1)[:, None])
+
+
+def pointiness(positions: Floats, normals: Floats, edges: NDArray[np.integer]) -> Floats:
+    """(vertices,): how far a mesh juts out, as Blender's renderers have it: the angle between the normal and the mean
+    direction of a vertex's edges, over pi, and then the mean of it and of its neighbours'. Vertices of one place are
+    one.
+
+    positions, normals (vertices, 3), edges (edges, 2)."""
+    _, first, same = np.unique(positions + np.float32(0.0), axis=0, return_index=True, return_inverse=True)
+    same = same.reshape(-1)
+    places = positions[first].astype(np.float64)
+    own = _unit(np.stack([np.bincount(same, normals[:, i], len(places)) for i in range(3)], axis=1))
+    ends = np.unique(np.sort(same[edges], axis=1), axis=0)
+    ends = ends[ends[:, 0] != ends[:, 1]]
+    starts, stops = np.concatenate([ends, ends[:, ::-1]]).T
+    along = _unit(places[stops] - places[starts])
+    count = np.bincount(starts, minlength=len(places))
+    sums = np.stack([np.bincount(starts, along[:, i], len(places)) for i in range(3)], axis=1)
+    means = sums / np.maximum(count, 1)[:, None]
+    sharpness = np.where(count > 0, np.arccos(np.clip((own * means).sum(axis=1), -1.0, 1.0)) / np.pi, 0.0)
+    around = np.bincount(starts, sharpness[stops], len(places))
+    return np.asarray(((sharpness + around) / (count + 1))[same])
 
 
 def island_roots(count: int, edges: list[list[int]]) -> list[int]:

@@ -370,6 +370,7 @@ _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeBump": surface.bump,
     "ShaderNodeWireframe": surface.wireframe,
     "ShaderNodeParticleInfo": surface.particle_info,
+    "ShaderNodeHairInfo": surface.strand_info,
     "ShaderNodeVolumeInfo": surface.volume_info,
     "ShaderNodeWavelength": color_nodes.wavelength,
     "ShaderNodeNormalMap": surface.normal_map,

@@ -424,7 +424,7 @@ class _Collector:
 
     def _add_tubes(self, placed: Placed, matrices: Floats, strands: Strands, material: int) -> None:
         name = placed.item.name
-        for missing in sorted(self._attributes((material,)) - {key for key, _ in strands.values}):
+        for missing in sorted(self._attributes((material,)) - {key for key, _ in strands.values + strands.along}):
             what = missing.removeprefix(named(""))
             self._notices.add(place(name), f"its material asks for '{what}', which hair has not here; it is 0")
         found = tubes(name, strands)

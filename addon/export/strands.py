@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Attribute, Floats, Mesh
-from .attributes import FIELDS
-from .translate.surface import ACTIVE_UV, GENERATED, named
+from .attributes import FIELDS, is_known
+from .instance import hash_pair
+from .translate.surface import ACTIVE_UV, GENERATED, STRAND_PREFIX, STRAND_TANGENT, named
 
 if TYPE_CHECKING:
     import bpy
@@ -37,6 +38,7 @@ class Strands:
     counts: NDArray[np.integer]  # (s,): points of each strand, 2 or more
     slot: int = 0  # of the object's materials
     values: tuple[tuple[str, Floats], ...] = ()  # what programs ask for by name, (s, width) of each strand
+    along: tuple[tuple[str, Floats], ...] = ()  # and (n, width) of each point
 
     @property
     def segments(self) -> int:
@@ -55,7 +57,7 @@ class Tubes:
 def particle_strands(item: bpy.types.Object, is_final: bool, names: frozenset[str]) -> list[Strands]:
     """Of an evaluated object, a Strands for each of its particle systems that shows hair. names: of attributes."""
     inverse = np.linalg.inv(np.array(item.matrix_world, np.float64))
-    found = []
+    found: list[Strands] = []
     for modifier in item.modifiers:
         if modifier.type != "PARTICLE_SYSTEM":
             continue
@@ -63,15 +65,17 @@ def particle_strands(item: bpy.types.Object, is_final: bool, names: frozenset[st
             continue
         settings = modifier.particle_system.settings
         if settings.type == "HAIR" and settings.render_type == "PATH":
-            strands = _system_strands(item, modifier, inverse, is_final, names)
+            before = sum(len(strands.counts) for strands in found)
+            strands = _system_strands(item, modifier, inverse, is_final, names, before)
             if strands is not None:
                 found.append(strands)
     return found
 
 
 def _system_strands(
-    item: bpy.types.Object, modifier: Any, inverse: Floats, is_final: bool, names: frozenset[str]
+    item: bpy.types.Object, modifier: Any, inverse: Floats, is_final: bool, names: frozenset[str], before: int
 ) -> Strands | None:
+    """before: how many strands the systems before it have."""
     system = modifier.particle_system
     settings = system.settings
     parents, children = len(system.particles), len(system.child_particles)
@@ -96,13 +100,14 @@ def _system_strands(
         return None
     radii = profile(lengths[grown] / lengths[grown][:, -1:], settings)
     values = _root_values(item, modifier, numbers, points[:, 0], names)
-    return Strands(
+    found = Strands(
         points[grown].reshape(-1, 3),
         radii.reshape(-1),
         np.full(int(grown.sum()), steps),
         max(settings.material - 1, 0),
         tuple((name, rows[grown]) for name, rows in values),
     )
+    return with_info(found, names, before)
 
 
 def profile(along: Floats, settings: Any) -> Floats:
@@ -167,20 +172,49 @@ def curve_strands(curves: bpy.types.Curves, names: frozenset[str] = frozenset())
     keep = np.repeat(long, counts)
     if not keep.any():
         return None
+    asked = [item for item in curves.attributes if named(item.name) in names and is_known(item.data_type)]
+    found = Strands(
+        points.reshape(-1, 3)[keep].astype(np.float64),
+        radii[keep].astype(np.float64),
+        counts[long],
+        values=tuple((named(item.name), _curve_values(item)[long]) for item in asked if item.domain == "CURVE"),
+        along=tuple((named(item.name), _curve_values(item)[keep]) for item in asked if item.domain == "POINT"),
+    )
+    return with_info(found, names)
+
+
+def with_info(strands: Strands, names: frozenset[str], before: int = 0) -> Strands:
+    """With what a Curves Info node shows, where names ask for it. before: strands that were counted already."""
+    starts = _starts(strands)
+    steps = np.zeros(len(strands.points))
+    steps[1:] = np.linalg.norm(np.diff(strands.points, axis=0), axis=1)
+    steps[starts] = 0.0
+    travelled = np.cumsum(steps)
+    travelled -= np.repeat(travelled[starts], strands.counts)
+    lengths = travelled[starts + strands.counts - 1]
+    each = np.repeat(lengths, strands.counts)
+    of_strands = {
+        "Is Strand": np.ones(len(lengths)),
+        "Length": lengths,
+        "Random": np.array([hash_pair(before + i, 0) for i in range(len(lengths))]) / 0xFFFFFFFF,
+    }
+    of_points = {
+        "Intercept": travelled / np.where(each > 0.0, each, 1.0),
+        "Thickness": 2.0 * strands.radii,
+    }
     values = tuple(
-        (named(item.name), rows[long])
-        for item in curves.attributes
-        if named(item.name) in names and (rows := _curve_values(item)) is not None
+        (STRAND_PREFIX + key, rows[:, None]) for key, rows in of_strands.items() if STRAND_PREFIX + key in names
     )
-    return Strands(
-        points.reshape(-1, 3)[keep].astype(np.float64), radii[keep].astype(np.float64), counts[long], values=values
+    along = tuple(
+        (STRAND_PREFIX + key, rows[:, None]) for key, rows in of_points.items() if STRAND_PREFIX + key in names
     )
+    if STRAND_TANGENT in names:
+        along += ((STRAND_TANGENT, tangents_along(strands.points, strands.counts)),)
+    return replace(strands, values=strands.values + values, along=strands.along + along)
 
 
-def _curve_values(attribute: Any) -> Floats | None:
-    """(curves, width) of an attribute of curves; None for one of points."""
-    if attribute.domain != "CURVE" or attribute.data_type not in FIELDS:
-        return None
+def _curve_values(attribute: Any) -> Floats:
+    """(curves or points, width) of an attribute."""
     field, width = FIELDS[attribute.data_type]
     kinds: dict[str, type[np.generic]] = {"INT": np.int32, "INT8": np.int32, "BOOLEAN": np.bool_}
     values: NDArray[Any] = np.empty(width * len(attribute.data), kinds.get(attribute.data_type, np.float32))
@@ -217,6 +251,7 @@ def _coarsened(strands: Strands) -> Strands:
         points=strands.points[keep],
         radii=strands.radii[keep],
         counts=np.add.reduceat(keep.astype(np.intp), starts),
+        along=tuple((name, rows[keep]) for name, rows in strands.along),
     )
 
 
@@ -235,6 +270,7 @@ def _thinned(strands: Strands, most: int) -> Strands:
         radii=strands.radii[keep] * (len(chosen) / chosen.sum()),
         counts=strands.counts[chosen],
         values=tuple((name, rows[chosen]) for name, rows in strands.values),
+        along=tuple((name, rows[keep]) for name, rows in strands.along),
     )
 
 
@@ -262,7 +298,22 @@ def subdivided(strands: Strands, parts: int) -> Strands:
     rest = np.ones(len(result), bool)
     rest[last] = False
     result[rest], result[last] = inner.reshape(-1, 4), points[ends]
-    return replace(strands, points=result[:, :3], radii=np.maximum(result[:, 3], 0.0), counts=counts)
+    part = (np.arange(parts) / parts)[None, :, None]
+
+    def spread(rows: Floats) -> Floats:
+        """Along straight lines, as Cycles has them."""
+        finer = np.empty((len(result), rows.shape[1]))
+        finer[rest] = (rows[b][:, None] + (rows[b + 1] - rows[b])[:, None] * part).reshape(-1, rows.shape[1])
+        finer[last] = rows[ends]
+        return finer
+
+    return replace(
+        strands,
+        points=result[:, :3],
+        radii=np.maximum(result[:, 3], 0.0),
+        counts=counts,
+        along=tuple((name, spread(rows)) for name, rows in strands.along),
+    )
 
 
 def _mesh(name: str, strands: Strands, sides: int) -> Mesh:
@@ -288,6 +339,10 @@ def _mesh(name: str, strands: Strands, sides: int) -> Mesh:
         normals.reshape(-1, 3).astype(np.float32) if sides >= LEAST_SMOOTH else None,
         attributes=tuple(
             Attribute(key, "face", np.ascontiguousarray(values[rows], np.float32)) for key, values in strands.values
+        )
+        + tuple(
+            Attribute(key, "vertex", np.repeat(values, sides, axis=0).astype(np.float32))
+            for key, values in strands.along
         ),
     )
 
@@ -295,13 +350,7 @@ def _mesh(name: str, strands: Strands, sides: int) -> Mesh:
 def _frames(points: Floats, counts: NDArray[np.integer]) -> Floats:
     """(n, 2, 3): two directions across each point's strand, carried along it with as little turn as can be."""
     starts = np.cumsum(counts) - counts
-    segments = np.diff(points, axis=0, append=points[-1:])
-    inner = np.ones(len(points), bool)
-    inner[starts + counts - 1] = False
-    segments = np.where(inner[:, None], _unit(segments), 0.0)
-    behind = np.concatenate([np.zeros((1, 3)), segments[:-1]])
-    along = _unit(segments + behind)
-    along[(along == 0.0).all(axis=1)] = (0.0, 0.0, 1.0)
+    along = tangents_along(points, counts)
     result = np.empty((len(points), 2, 3))
     first = along[starts]
     axes = np.eye(3)[np.abs(first).argmin(axis=1)]
@@ -317,6 +366,18 @@ def _frames(points: Floats, counts: NDArray[np.integer]) -> Floats:
         current[alive] = _unit(moved)
         result[here, 0], result[here, 1] = current[alive], np.cross(t, current[alive])
     return result
+
+
+def tangents_along(points: Floats, counts: NDArray[np.integer]) -> Floats:
+    """(n, 3): unit vectors along the strand of each point."""
+    segments = np.diff(points, axis=0, append=points[-1:])
+    inner = np.ones(len(points), bool)
+    inner[np.cumsum(counts) - 1] = False
+    segments = np.where(inner[:, None], _unit(segments), 0.0)
+    behind = np.concatenate([np.zeros((1, 3)), segments[:-1]])
+    along = _unit(segments + behind)
+    along[(along == 0.0).all(axis=1)] = (0.0, 0.0, 1.0)
+    return along
 
 
 def _unit(vectors: Floats) -> Floats:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...scene.program import Op
-from .values import Triple, Value, number, op, triple, value_of, vector_math
+from .values import Number, Triple, Value, number, op, triple, value_of, vector_math
 
 if TYPE_CHECKING:
     from ..nodes import Nodes
@@ -20,12 +20,17 @@ ACTIVE_COLOR = "color"
 GENERATED = "generated"
 TANGENT_PREFIX = "tangent:"
 ISLAND = "island"  # another number for each part of a mesh that hangs together
+POINTINESS = "pointiness"
+STRAND_PREFIX = "strand:"  # of hair, by the outputs of a Curves Info node
+STRAND_TANGENT = STRAND_PREFIX + "Tangent"
 # Of instances: properties of objects and instancers, and values of particles, by name.
 OBJECT_PREFIX, INSTANCER_PREFIX, PARTICLE_PREFIX = "object:", "instancer:", "particle:"
 INSTANCER_GENERATED, INSTANCER_UV = "instancer_generated", "instancer_uv"
 # Of instances: from the object's coordinates to generated ones, by which points within it go.
 VOLUME_SCALE, VOLUME_OFFSET = "volume_scale", "volume_offset"
 VOLUME_DENSITY = "volume_density"  # of instances of volume objects: a factor of their density
+
+TO_WORLD = ("vector", "object", "world")  # modes of an operation
 
 # From here on the strength of a normal map scales what it holds; before, it blends normals.
 STRENGTH_IN_TANGENTS = (4, 0)
@@ -162,9 +167,26 @@ def geometry_node(nodes: Nodes, source: Source) -> Value:
         return fact("backfacing")
     if kind == "Random Per Island":
         return op("separate", attribute(nodes, ISLAND), modes=("x",))
+    if kind == "Pointiness":
+        return op("separate", attribute(nodes, POINTINESS), modes=("x",))
     if kind == "Tangent":
         return op("tangent", _around_z(attribute(nodes, GENERATED)))
     return nodes.not_translated(source, f"{source.output.name}")
+
+
+def strand_info(nodes: Nodes, source: Source) -> Value:
+    """Of hair; 0 on all other surfaces."""
+    kind = source.output.identifier
+    if kind != "Tangent Normal":
+        return op("separate", attribute(nodes, STRAND_PREFIX + kind), modes=("x",))
+    along = vector_math("normalize", op("vector_transform", attribute(nodes, STRAND_TANGENT), modes=TO_WORLD))
+    incoming = geometry(nodes, "incoming")
+    across = vector_math("subtract", incoming, vector_math("scale", along, scale=op("dot", along, incoming)))
+    return vector_math("scale", vector_math("normalize", across), scale=_is_strand(nodes))
+
+
+def _is_strand(nodes: Nodes) -> Number:
+    return op("separate", attribute(nodes, STRAND_PREFIX + "Is Strand"), modes=("x",))
 
 
 def _around_z(generated: Triple, axis: str = "Z") -> Triple:
