@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Kinds of things that people's files hold, each as a scene of its own, by Cycles and by Glimmer: kinds_script.py FILE.
+
+Materials shine or are lit by an even sky, so that there is next to no noise. Writes for each case how far the means of
+blocks are apart, as a part of the picture's brightest, and what was told.
+"""
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bmesh
+import inside
+from exact_cycles import set_up_cycles
+from shading_cases import make
+
+BLOCK = 10  # pixels
+SAMPLES = 64
+CASES: dict[str, Callable[[], None]] = {}
+
+
+def case(build: Callable[[], None]) -> Callable[[], None]:
+    CASES[build.__name__] = build
+    return build
+
+
+# ---- Materials ---------------------------------------------------------------------------------------------------
+
+
+def material(kind: str = "ShaderNodeEmission", color: tuple[float, float, float] = (0.8, 0.3, 0.1)) -> Any:
+    return inside.material(kind, Color=(*color, 1.0))
+
+
+def shown(build: Callable[[Any], Any]) -> Any:
+    """A material that shines with what `build` puts in its tree."""
+    result = material()
+    tree = result.node_tree
+    tree.links.new(build(tree), tree.nodes["Emission"].inputs["Color"])
+    return result
+
+
+def surface(result: Any, output: Any) -> Any:
+    result.node_tree.links.new(output, result.node_tree.nodes["Material Output"].inputs["Surface"])
+    return result
+
+
+@case
+def without_nodes() -> None:
+    plain = bpy.data.materials.new("Plain")
+    if hasattr(plain, "use_nodes"):
+        plain.use_nodes = False
+    plain.diffuse_color, plain.metallic, plain.roughness = (0.8, 0.6, 0.1, 1.0), 1.0, 0.2
+    inside.ball("Ball", plain)
+
+
+@case
+def without_an_output() -> None:
+    lost = material("ShaderNodeBsdfDiffuse")
+    lost.node_tree.nodes.remove(lost.node_tree.nodes["Material Output"])
+    inside.ball("Ball", lost)
+
+
+@case
+def without_a_shader() -> None:
+    lost = material("ShaderNodeBsdfDiffuse")
+    lost.node_tree.links.clear()
+    inside.ball("Ball", lost)
+
+
+@case
+def value_as_shader() -> None:
+    inside.ball("Ball", surface(material(), make(material().node_tree, "ShaderNodeRGB")))
+    own = material()
+    inside.ball("Checker", surface(own, make(own.node_tree, "ShaderNodeTexChecker")), (2.0, 0.0, 1.0))
+
+
+@case
+def background_as_shader() -> None:
+    inside.ball("Ball", inside.material("ShaderNodeBackground", Color=(0.2, 0.8, 0.3, 1.0), Strength=1.5))
+
+
+def group(build: Callable[[Any, Any], Any]) -> Any:
+    """Of a colour input and a number, and a colour output."""
+    tree = bpy.data.node_groups.new("Group", "ShaderNodeTree")
+    if hasattr(tree, "interface"):
+        tree.interface.new_socket("Color", in_out="INPUT", socket_type="NodeSocketColor")
+        tree.interface.new_socket("Amount", in_out="INPUT", socket_type="NodeSocketFloat")
+        tree.interface.new_socket("Result", in_out="OUTPUT", socket_type="NodeSocketColor")
+    else:
+        tree.inputs.new("NodeSocketColor", "Color")
+        tree.inputs.new("NodeSocketFloat", "Amount")
+        tree.outputs.new("NodeSocketColor", "Result")
+    given, result = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    tree.links.new(build(tree, given), result.inputs[0])
+    return tree
+
+
+def used(tree: Any, inner: Any, color: tuple[float, float, float] = (0.9, 0.4, 0.1), amount: float = 0.4) -> Any:
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree = inner
+    node.inputs[0].default_value, node.inputs[1].default_value = (*color, 1.0), amount
+    return node
+
+
+@case
+def groups_within_groups() -> None:
+    inner = group(lambda tree, given: make(tree, "ShaderNodeGamma", inputs={0: given.outputs[0], 1: given.outputs[1]}))
+
+    def outer(tree: Any, given: Any) -> Any:
+        node = used(tree, inner, amount=2.2)
+        tree.links.new(given.outputs[0], node.inputs[0])
+        return node.outputs[0]
+
+    inside.ball("Ball", shown(lambda tree: used(tree, group(outer)).outputs[0]))
+
+
+@case
+def muted_nodes() -> None:
+    def free(tree: Any) -> Any:
+        node = used(tree, group(lambda inner, given: given.outputs[0]))
+        node.mute = True
+        return node.outputs[0]
+
+    def linked(tree: Any) -> Any:
+        color = make(tree, "ShaderNodeRGB")
+        color.default_value = (0.2, 0.7, 0.4, 1.0)
+        result = make(tree, "ShaderNodeInvert", inputs={1: color})
+        result.node.mute = True
+        return result
+
+    inside.ball("Free", shown(free), (-1.2, 0.0, 1.0))
+    inside.ball("Linked", shown(linked), (1.2, 0.0, 1.0))
+
+
+@case
+def slots() -> None:
+    item = inside.ball("Ball", material(), segments=16)
+    item.data.materials.append(None)
+    item.data.materials.append(material(color=(0.1, 0.2, 0.9)))
+    item.data.polygons.foreach_set("material_index", [i % 5 for i in range(len(item.data.polygons))])
+    own = inside.ball("Own", material(), (2.2, 0.0, 1.0))
+    own.material_slots[0].link = "OBJECT"
+    own.material_slots[0].material = material(color=(0.1, 0.9, 0.2))
+
+
+# ---- Attributes --------------------------------------------------------------------------------------------------
+
+
+def card(name: str, shader: Any, x: float, y: float = 0.0) -> Any:
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([(-0.5, -0.5, 0.0), (0.5, -0.5, 0.0), (0.5, 0.5, 0.0), (-0.5, 0.5, 0.0)], [], [(0, 1, 2, 3)])
+    layer = mesh.uv_layers.new(name="UVMap")
+    for loop, uv in enumerate(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))):
+        layer.data[loop].uv = uv
+    return inside.add_mesh(name, mesh, shader, (x, y, 0.3))
+
+
+@case
+def kinds_of_attributes() -> None:
+    kinds = ("FLOAT", "EDGE"), ("INT8", "POINT"), ("INT", "FACE"), ("FLOAT_VECTOR", "CORNER"), ("FLOAT2", "POINT")
+    for number, (kind, domain) in enumerate(kinds):
+        shader = shown(lambda tree: make(tree, "ShaderNodeAttribute", attribute_name="цвет"))
+        item = card(kind, shader, 1.1 * number - 2.2)
+        data = item.data.attributes.new("цвет", kind, domain).data
+        for index, value in enumerate(data):
+            if hasattr(value, "vector"):
+                value.vector = (0.3 * index, 0.5, 0.2)[: len(value.vector)]
+            else:
+                value.value = 0.3 * index + 0.2 if kind == "FLOAT" else index + 1
+
+
+@case
+def pointiness() -> None:
+    mesh = bpy.data.meshes.new("Block")
+    shape = bmesh.new()
+    bmesh.ops.create_cube(shape, size=1.6)
+    bmesh.ops.bevel(shape, geom=shape.edges[:], offset=0.3, segments=2, affect="EDGES")
+    shape.to_mesh(mesh)
+    shape.free()
+    inside.add_mesh("Block", mesh, shown(lambda tree: make(tree, "ShaderNodeNewGeometry", "Pointiness")))
+
+
+def hair(output: str) -> None:
+    item = inside.ball("Ball", shown(lambda tree: make(tree, "ShaderNodeHairInfo", output)))
+    item.modifiers.new("Hair", "PARTICLE_SYSTEM")
+    settings = item.particle_systems[0].settings
+    settings.type, settings.count, settings.hair_length = "HAIR", 60, 1.0
+    settings.root_radius, settings.tip_radius, settings.radius_scale = 1.0, 1.0, 0.02
+
+
+for _output in ("Intercept", "Random", "Length", "Is Strand"):
+    CASES[f"hair_{_output.lower().replace(' ', '_')}"] = lambda output=_output: hair(output)  # type: ignore[misc]
+
+
+# ---- Images ------------------------------------------------------------------------------------------------------
+
+
+def stored(name: str, file_format: str, is_float: bool = False) -> Any:
+    """A saved image, read back."""
+    image = bpy.data.images.new(name, 16, 16, alpha=True, float_buffer=is_float)
+    x, y = np.meshgrid(np.linspace(0.1, 0.9, 16), np.linspace(0.1, 0.9, 16))
+    image.pixels.foreach_set(
+        np.stack([0.6 + 0.2 * x, 0.6 + 0.2 * y, np.full_like(x, 0.5), np.ones_like(x)], axis=2)
+        .astype(np.float32)
+        .ravel()
+    )
+    path = Path(inside.words()[0]).with_name(f"{name}.{file_format[:3].lower()}")
+    image.filepath_raw, image.file_format = str(path), file_format
+    image.save()
+    bpy.data.images.remove(image)
+    return bpy.data.images.load(str(path), check_existing=False)
+
+
+@case
+def color_spaces() -> None:
+    names = [
+        item.identifier
+        for item in type(stored("probe", "PNG").colorspace_settings).bl_rna.properties["name"].enum_items
+    ]
+    wanted = ("Filmic Log", "Linear ACEScg", "ACEScg", "Display P3", "Rec.2020", "Raw")
+    for number, name in enumerate(item for item in wanted if item in names):
+        image = stored(f"space{number}", "PNG")
+        image.colorspace_settings.name = name
+        shader = shown(lambda tree, image=image: make(tree, "ShaderNodeTexImage", image=image))  # type: ignore[misc]
+        card(name, shader, 1.1 * (number % 5) - 2.2, 1.1 * (number // 5))
+
+
+@case
+def world_without_its_image() -> None:
+    image = stored("gone", "PNG")
+    image.filepath = "//nowhere.hdr"
+    image.reload()
+    tree = bpy.context.scene.world.node_tree
+    texture = make(tree, "ShaderNodeTexEnvironment", image=image)
+    tree.links.new(texture, tree.nodes["Background"].inputs["Color"])
+    inside.ball("Ball", material("ShaderNodeBsdfDiffuse"))
+
+
+# ---- Objects -----------------------------------------------------------------------------------------------------
+
+
+@case
+def scales() -> None:
+    def build(tree: Any) -> Any:
+        inputs = {0: make(tree, "ShaderNodeNewGeometry", "Normal"), 1: (0.4,) * 3, 2: (0.5,) * 3}
+        return make(tree, "ShaderNodeVectorMath", inputs=inputs, operation="MULTIPLY_ADD")
+
+    shader = shown(build)
+    mirrored = inside.ball("Mirrored", shader, (-1.5, 0.0, 1.0), segments=12)
+    mirrored.scale = (-1.0, 0.7, 1.0)
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.scene.collection.objects.link(parent)
+    parent.scale = (2.0, 1.0, 0.5)
+    sheared = inside.ball("Sheared", shader, (0.7, 0.0, 1.5), segments=12)
+    sheared.parent, sheared.rotation_euler = parent, (0.3, 0.5, 0.7)
+
+
+@case
+def set_behind_the_scene() -> None:
+    other = bpy.data.scenes.new("Set")
+    item = inside.ball("Far", material(), (-1.5, 0.0, 1.0))
+    bpy.context.scene.collection.objects.unlink(item)
+    other.collection.objects.link(item)
+    bpy.context.scene.background_set = other
+    inside.ball("Near", material(color=(0.1, 0.2, 0.9)), (1.5, 0.0, 1.0))
+
+
+@case
+def camera_of_a_marker() -> None:
+    scene = bpy.context.scene
+    other = bpy.data.objects.new("Other", bpy.data.cameras.new("Other"))
+    scene.collection.objects.link(other)
+    other.location, other.rotation_euler = (5.0, -5.0, 4.0), (1.0, 0.0, 0.8)
+    scene.timeline_markers.new("Cut", frame=5).camera = other
+    scene.frame_set(6)
+    inside.ball("Ball", material())
+
+
+# ---- Renders -----------------------------------------------------------------------------------------------------
+
+
+def blocks(picture: Any) -> Any:
+    height, width = (size // BLOCK * BLOCK for size in picture.shape[:2])
+    return picture[:height, :width].reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, 3).mean(axis=(1, 3))
+
+
+def compared(out: Path, build: Callable[[], None]) -> dict[str, Any]:
+    scene = inside.empty_scene((0.3, 0.35, 0.4))
+    scene.timeline_markers.clear()
+    scene.background_set = None
+    build()
+    scene = bpy.context.scene
+    set_up_cycles(scene, samples=SAMPLES)
+    scene.glimmer.samples, scene.glimmer.filter = SAMPLES, "BOX"
+    theirs, mine = (blocks(inside.picture(out.with_name("picture.exr"), engine, 1)) for engine in ("CYCLES", "GLIMMER"))
+    from glimmer import reports
+
+    notices = reports.last()["export"]["notices"]
+    return {"apart": float(np.abs(mine - theirs).max() / theirs.max()), "notices": notices}
+
+
+def main() -> None:
+    out = Path(inside.words()[0])
+    inside.enable()
+    inside.use_format("OPEN_EXR")
+    out.write_text(json.dumps({name: compared(out, build) for name, build in CASES.items()}))
+
+
+if __name__ == "__main__":
+    main()

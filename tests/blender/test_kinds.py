@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Kinds of things that people's files hold show in Glimmer what they show in Cycles."""
+
+import json
+from pathlib import Path
+
+import pytest
+from hosts import Host
+
+SCRIPT = Path(__file__).with_name("kinds_script.py")
+APART = 0.02  # of the picture's brightest block
+
+# What is told though it shows what Cycles shows, by a word of the notice.
+TOLD = {
+    "without_an_output": "as in Cycles",
+    "without_a_shader": "as in Cycles",
+    "world_without_its_image": "as in Cycles",
+}
+
+
+# What lies between the oldest Blender and the newest is slow to try and seldom fails alone.
+@pytest.mark.parametrize(
+    "host", ["blender", pytest.param("bpy", marks=pytest.mark.full), "newest"], indirect=True, scope="session"
+)
+def test_kinds_show_what_they_show_in_cycles(host: Host, tmp_path: Path) -> None:
+    path = tmp_path / "facts.json"
+    host.run_script(SCRIPT, str(path))
+    found = json.loads(path.read_text())
+    assert {name: case for name, case in found.items() if case["apart"] > APART} == {}
+    told = {name: case["notices"] for name, case in found.items() if case["notices"]}
+    assert told.keys() == TOLD.keys(), told
+    assert all(TOLD[name] in notice for name, notices in told.items() for notice in notices)
