@@ -238,6 +238,28 @@ def test_a_box_around_everything_is_a_world(integrator: str) -> None:
     check_same(lambda seed: blocks(world(seed), 16), lambda seed: blocks(bounded(seed), 16), within=0.06)
 
 
+@pytest.mark.parametrize("what", ["ball", pytest.param("pane", marks=pytest.mark.full), "drink"])
+def test_light_vertices_and_glass(what: str, integrator: str) -> None:
+    """A ball and a pane of glass in a room of haze, and a ball of glass that is full of it."""
+    if integrator != "path":
+        pytest.skip("it has no light vertices")
+    scene = Builder(camera((0, -7, 2.2), (0, 0, 1.2), 50), 16, 12)
+    scene.mesh(floor(0, 30), d.Lambert(grey(0.5))).sphere((-2, 2, 3), 0.5, d.Light((9, 6, 4)))
+    scene.sphere((6, 3, 5), 0.8, d.Light((6, 8, 12)))
+    if what == "drink":
+        scene.sphere((0, 0, 1.2), 1.2, d.Glass(1.33), interior=d.Medium((0.05, 0.02, 0.3), (1.0, 1.4, 0.6), 0.2))
+    else:
+        haze = d.Medium((0.01, 0.02, 0.01), (0.2, 0.16, 0.24))
+        scene.mesh(box((-4, -3, -0.5), (4, 4, 4)), d.Null(), interior=haze)
+    if what == "ball":
+        scene.sphere((0.6, 0, 1), 0.9, d.Glass(1.5))
+    if what == "pane":
+        scene.mesh(box((-3, -1, 0.01), (3, -0.8, 4)), d.Glass(1.5))
+    made = scene.done()
+    shared, alone = (Pictures(Measurement(made, name, samples=4)) for name in ("path", "path-no-light-vertices"))
+    check_same(lambda seed: blocks(shared(seed), 4), lambda seed: blocks(alone(seed), 4), within=0.05, what=what)
+
+
 # ---- Robustness ----------------------------------------------------------------------------------------------------
 
 

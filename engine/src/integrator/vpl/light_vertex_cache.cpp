@@ -43,22 +43,20 @@ bool has_light_to_start_at(const Scene &scene) {
 }
 
 /// Why media within surfaces would not be served; null where they are.
-const char *reason_against(const Scene &scene, const BoundedMedia &media) {
+const char *reason_against(const BoundedMedia &media) {
     if (media.varies())
         return "there is fog that varies from place to place";
     if (!media.is_one_convex_body())
         return "there is fog within surfaces that is not one convex body";
     if (media.emits())
         return "there is fog that shines";
-    if (scene.has_dielectrics)
-        return "there is glass, and fog within a surface";
     return nullptr;
 }
 
 /// Why the cache would not serve a medium that scatters; null where it does.
 const char *reason_against(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera) {
     if (const BoundedMedia *bounded = scene.medium->bounded())
-        if (const char *reason = reason_against(scene, *bounded))
+        if (const char *reason = reason_against(*bounded))
             return reason;
     if (scene.medium->height_haze())
         return "the fog thins out with height";

@@ -57,7 +57,7 @@ struct LightVertexPlan {
 
 /// The cache for a scene. grouped: passes show light by its group. There is none (docs/method.md, section 9) without a
 /// medium that scatters, and for
-/// - media within surfaces, unless it is one, within one convex body, in a scene without glass;
+/// - media within surfaces, unless it is one that does not shine, within one convex body;
 /// - a phase function with too narrow a peak, which all but unbounds the connections;
 /// - a camera within a dielectric, whose rays do not scatter in the medium;
 /// - depth limits that leave no room for a light vertex and a gather point;
