@@ -13,7 +13,7 @@ from tests.render.statistics import INTEGRATORS, Array, blocks, check_same
 
 
 def world(first: d.Light) -> d.SceneDescription:
-    """Haze between two moons, the second in group 3, and metal that throws narrow light into it; a ball casts shadow."""
+    """Haze between two moons, the second in group 3, metal that throws narrow light into it, and a ball in the way."""
     haze = d.Medium((0.01, 0.02, 0.01), (0.06, 0.05, 0.07), 0.2)
     builder = Builder(camera((0, -4, 2), (0, 8, 1.5), 60), 16, 12, medium=haze)
     builder.mesh(floor(0, 30), d.Mix(0.5, d.Lambert(grey(0.5)), d.Conductor(0.1, f0=grey(0.8))))
