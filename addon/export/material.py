@@ -27,6 +27,7 @@ from ..scene.description import (
     Null,
     Rgb,
     Sheen,
+    Subsurface,
     Surface,
     Translucent,
     Transparent,
@@ -39,6 +40,7 @@ from .displacement import bump_of_displacement
 from .nodes import Nodes
 from .principled import principled
 from .sockets import Input, Source
+from .subsurface import DISK, Method, most_backward, most_forward, subsurface_method
 from .translate.image import Images
 from .translate.surface import VOLUME_DENSITY, attribute, normal_input, tangent_input
 from .translate.values import Number, Triple, clamped, clamped_color, math, op, scaled, squared, triple
@@ -384,6 +386,28 @@ class _Shaders:
     def velvet(self, source: Source) -> Material:
         return Sheen(self.albedo(source), clamped(self.varying_number(source, "Sigma")), "velvet")
 
+    def subsurface(self, source: Source) -> Material:
+        method = self.subsurface_method(source, "falloff")
+        radius = scaled(self.varying(source, "Radius"), self.varying_number(source, "Scale", default=1.0))
+        return Subsurface(
+            self.albedo(source),
+            clamped_color(radius, 0.0, float("inf")),
+            method.model,
+            method.entry,
+            self.varying_number(source, "IOR", default=1.4),
+            clamped(self.varying_number(source, "Roughness", default=1.0)),
+            self.subsurface_anisotropy(source, method, "Anisotropy"),
+        )
+
+    def subsurface_method(self, source: Source, setting: str) -> Method:
+        method = subsurface_method(source.node, setting, self.version)
+        if method.is_disk:
+            self.nodes.notice(source.node, DISK)
+        return method
+
+    def subsurface_anisotropy(self, source: Source, method: Method, name: str) -> Number:
+        return clamped(self.varying_number(source, name), most_backward(method), most_forward(method))
+
     def portal(self, source: Source) -> Material:
         """Where nothing is linked light goes on as if there were no surface."""
         if any(not self.nodes.is_free(source, source.node.inputs[name]) for name in ("Position", "Direction")):
@@ -443,6 +467,7 @@ _SHADERS: dict[str, Callable[[_Shaders, Source], Material]] = {
     "ShaderNodeBsdfHairPrincipled": _Shaders.hair,
     "ShaderNodeBsdfSheen": _Shaders.sheen,
     "ShaderNodeBsdfVelvet": _Shaders.velvet,
+    "ShaderNodeSubsurfaceScattering": _Shaders.subsurface,
     "ShaderNodeBsdfPrincipled": _Shaders.principled,
     "ShaderNodeMixShader": _Shaders.mix,
     "ShaderNodeAddShader": _Shaders.add,

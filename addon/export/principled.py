@@ -21,6 +21,7 @@ from ..scene.description import (
     Null,
     Rgb,
     Sheen,
+    Subsurface,
     Surface,
 )
 from ..scene.program import Op
@@ -28,6 +29,7 @@ from .color import ior_of_normal_reflectance
 from .combine import mix
 from .nodes import Nodes
 from .sockets import Source, find_input
+from .subsurface import Method
 from .translate.values import (
     Number,
     Triple,
@@ -70,6 +72,8 @@ class Shaders(Protocol):
     def glass_by_surface(
         self, source: Source, ior: float, reflected: Triple, alpha: Number, transmitted: Triple, alpha_beyond: Number
     ) -> Mix: ...
+    def subsurface_method(self, source: Source, setting: str) -> Method: ...
+    def subsurface_anisotropy(self, source: Source, method: Method, name: str) -> Number: ...
 
 
 def principled(shaders: Shaders, source: Source) -> Material:
@@ -90,15 +94,14 @@ class _Inputs:
 
     def __init__(self, shaders: Shaders, source: Source) -> None:
         self.shaders, self.source, self.node = shaders, source, source.node
-        self.base = shaders.albedo(source, "Base Color")
+        self.base = self.own_base = shaders.albedo(source, "Base Color")
         self.alpha = squared(self.unit("Roughness"))
         self.metallic = self.unit("Metallic")
         self.transmission = self.unit("Transmission Weight", "Transmission")
         self.ior = max(shaders.number(source, "IOR", default=1.5), 1e-3)
         self.facets = shaders.facets(source)
         self.under: Triple = WHITE  # what a coat's tint makes of white beneath it
-        if self.unit("Subsurface Weight", "Subsurface") != 0.0:
-            self.notice("subsurface scattering is not supported; a diffuse surface of its colour stands in its place")
+        self.subsurface = self.unit("Subsurface Weight", "Subsurface")
 
     def notice(self, what: str) -> None:
         self.shaders.nodes.notice(self.node, what)
@@ -108,6 +111,24 @@ class _Inputs:
 
     def color(self, *names: str) -> Triple:
         return clamped_color(self.shaders.varying(self.source, *names))
+
+    def beneath(self, albedo: Triple, scale: Number, ior: Number, color: Triple, boundary: str) -> Subsurface:
+        """What of the surface light wanders in. scale: of the radius. ior: of the surface."""
+        shaders, source = self.shaders, self.source
+        method = shaders.subsurface_method(source, "subsurface_method")
+        radius = scaled(shaders.varying(source, "Subsurface Radius"), scale)
+        own = shaders.varying_number(source, "Subsurface IOR", default=1.4)
+        return Subsurface(
+            albedo,
+            clamped_color(radius, 0.0, float("inf")),
+            method.model,
+            method.entry,
+            own if method.model == "skin" else ior,
+            self.alpha,
+            shaders.subsurface_anisotropy(source, method, "Subsurface Anisotropy"),
+            color,
+            boundary,
+        )
 
     def brushed(self, metal: Conductor) -> Conductor:
         squared_aspect = difference(1.0, product(self.unit("Anisotropic"), 0.9))
@@ -166,14 +187,19 @@ def _surface(inputs: _Inputs) -> Surface:
 def _opaque(inputs: _Inputs, tint: Triple) -> Surface:
     """A dielectric over a diffuse base."""
     shaders, source = inputs.shaders, inputs.source
-    diffuse = shaders.rough_diffuse(inputs.base, shaders.number(source, "Diffuse Roughness"))
     level = shaders.varying_number(source, "Specular IOR Level")
     f0 = clamped(product(level, 2.0 * normal_reflectance(inputs.ior)))
-    if f0 == 0.0:
-        return diffuse
     ior = _ior_of_normal_reflectance(f0)
     if inputs.ior < 1.0:
         ior = math("divide", 1.0, ior) if isinstance(ior, Op) else 1.0 / ior
+    diffuse: Material = shaders.rough_diffuse(inputs.base, shaders.number(source, "Diffuse Roughness"))
+    if inputs.subsurface != 0.0:
+        scale = shaders.varying_number(source, "Subsurface Scale", default=1.0)
+        beneath = inputs.beneath(inputs.own_base, scale, ior, inputs.under, "lambert")
+        diffuse = mix(inputs.subsurface, diffuse, beneath)
+    assert not isinstance(diffuse, (Light, Null))
+    if f0 == 0.0:
+        return diffuse
     f0_color, white = multiplied(scaled(tint, f0), inputs.under), inputs.under
     gloss = Conductor(inputs.alpha, f0=f0_color, f90=white, ior=ior, facets=inputs.facets)
     return Layer(1.0, inputs.brushed(gloss), diffuse)
@@ -254,10 +280,16 @@ def _glass_before_4(inputs: _Inputs) -> Surface:
 
 def _lobes_before_4(inputs: _Inputs, diffuse_share: Number) -> Surface:
     parts: list[Surface] = []
-    subsurface = inputs.unit("Subsurface")
+    subsurface = inputs.subsurface
     if diffuse_share != 0.0:
-        albedo = scaled(lerp(inputs.base, inputs.color("Subsurface Color"), subsurface), diffuse_share)
-        parts.append(Burley(albedo, inputs.unit("Roughness")) if subsurface == 0.0 else Lambert(albedo))
+        albedo = lerp(inputs.base, inputs.color("Subsurface Color"), subsurface)
+        diffuse, roughness = scaled(albedo, diffuse_share), inputs.unit("Roughness")
+        if subsurface == 0.0:
+            parts.append(Burley(diffuse, roughness))
+        else:
+            color = clamped_color(scaled(WHITE, diffuse_share))
+            parts.append(inputs.beneath(albedo, subsurface, inputs.ior, color, "burley"))
+            parts.append(Burley(diffuse, roughness, part="retro"))
         sheen = product(inputs.unit("Sheen"), diffuse_share)
         if sheen != 0.0:
             parts.append(Sheen(scaled(_tinted(inputs, "Sheen Tint", LUMINANCE), sheen), model="schlick"))

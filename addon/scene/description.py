@@ -180,12 +180,14 @@ class Translucent:
 
 @dataclass(frozen=True)
 class Burley:
-    """Disney's diffuse surface."""
+    """Disney's diffuse surface. part: "whole", "base", which knows no roughness, or "retro", what rough surfaces send
+    back."""
 
     TYPE: ClassVar[str] = "burley"
     albedo: Color
     roughness: Number
     emission: Color = BLACK
+    part: str = "whole"
 
 
 @dataclass(frozen=True)
@@ -228,6 +230,25 @@ class Layer:
 
 
 @dataclass(frozen=True)
+class Subsurface:
+    """Light that wanders within a body. model: what the radius means, "random_walk" (the mean free path),
+    "fixed_radius" (4 pi of them) or "skin" (that of a diffusion dipole). entry: "refracted" by facets of ior and GGX
+    width alpha, "diffuse", or "both", half by each. boundary: "lambert", or "burley", darker at grazing angles."""
+
+    TYPE: ClassVar[str] = "subsurface"
+    albedo: Color  # of a half-space
+    radius: Color  # lengths
+    model: str = "random_walk"
+    entry: str = "refracted"
+    ior: Number = 1.4
+    alpha: Number = 1.0
+    anisotropy: Number = 0.0  # mean cosine of scattering
+    color: Color = WHITE  # factor of what comes out
+    boundary: str = "lambert"
+    emission: Color = BLACK
+
+
+@dataclass(frozen=True)
 class Light:
     TYPE: ClassVar[str] = "light"
     radiance: Color
@@ -239,7 +260,9 @@ class Null:
 
 
 # What scatters light, and may also emit.
-Surface = Lambert | Mirror | Conductor | Glass | Transparent | Translucent | Burley | Sheen | Mix | Add | Layer
+Surface = (
+    Lambert | Mirror | Conductor | Glass | Transparent | Translucent | Burley | Sheen | Subsurface | Mix | Add | Layer
+)
 Material = Surface | Light | Null
 
 

@@ -12,16 +12,16 @@ using namespace glimmer::probe;
 
 struct probe_lobe {
     // 0 Lambert, 1 mirror, 2 conductor, 3 report metal, 4 dielectric, 5 transparent, 6 translucent, 7 Oren-Nayar, 8
-    // Burley, 9 sheen, 10 brushed
+    // Burley, 9 sheen, 10 brushed, 11 subsurface
     int32_t type;
     // flag: Schlick of a dielectric, multiple scattering of what else is rough, the model of a sheen; above: see
-    // WeightedLobe
+    // WeightedLobe; of Burley the part, of subsurface the model, its masking the entry
     int32_t use_f0, masking, flag, above;
     float weight, alpha, cover; // alpha: roughness of what is diffuse
     // Of a dielectric: transmission, (ior, 0: refraction only, 1: multiple scattering), -, reflection. eta of what is
     // brushed: both widths, the turn of the tangent.
     float color[3], eta[3], k[3], f0[3];
-    float curve_ior, f82[3]; // of a conductor
+    float curve_ior, f82[3]; // of a conductor; of subsurface f0 is the radius, curve_ior the anisotropy
 };
 
 /// eta: index beyond / index on the side of wo.
@@ -29,6 +29,16 @@ struct Surface {
     std::vector<WeightedLobe> lobes;
     Bsdf bsdf;
 };
+static Subsurface subsurface(const probe_lobe &l) {
+    return {load_rgb(l.color),
+            load_rgb(l.f0),
+            Rgb(1),
+            l.curve_ior,
+            l.eta[0],
+            l.alpha,
+            static_cast<SubsurfaceModel>(l.flag),
+            static_cast<SubsurfaceEntry>(l.masking)};
+}
 static Surface make(const probe_lobe *lobes, uint64_t count, float eta) {
     Surface surface;
     std::vector<WeightedLobe> &out = surface.lobes;
@@ -56,9 +66,11 @@ static Surface make(const probe_lobe *lobes, uint64_t count, float eta) {
         else if (l.type == 7)
             lobe = OrenNayar{load_rgb(l.color), l.alpha, l.flag != 0};
         else if (l.type == 8)
-            lobe = Burley{load_rgb(l.color), l.alpha};
+            lobe = Burley{load_rgb(l.color), l.alpha, static_cast<BurleyPart>(l.flag)};
         else if (l.type == 9)
             lobe = Sheen{load_rgb(l.color), l.alpha, static_cast<SheenModel>(l.flag)};
+        else if (l.type == 11)
+            lobe = subsurface(l);
         else
             lobe = Brushed{Conductor{std::sqrt(l.eta[0] * l.eta[1]),
                                      true,
@@ -81,6 +93,14 @@ static Surface make(const probe_lobe *lobes, uint64_t count, float eta) {
     surface.bsdf = Bsdf(out);
     surface.bsdf.eta = eta;
     return surface;
+}
+
+/// Coefficients of what a body of the lobe is filled with: extinction, albedo and weight of what enters, [3] each.
+PROBE void probe_subsurface_medium(const probe_lobe *lobe, float *sigma_t, float *alpha, float *weight) {
+    const SubsurfaceMedium medium = subsurface_medium(subsurface(*lobe));
+    store(sigma_t, medium.sigma_t);
+    store(alpha, medium.alpha);
+    store(weight, medium.weight);
 }
 
 /// wo [3]; wi [n, 3]; f [n, 3], pdf [n].

@@ -212,20 +212,30 @@ def sphere_airlight(
 
 
 @cache
-def half_space_albedo(c: float, mu: float) -> float:
-    """Plane albedo of a half space that scatters isotropically with albedo c: 1 - H(mu) sqrt(1 - c), with
-    Chandrasekhar's H by iteration of 1/H = sqrt(1 - c) + c/2 int x H(x) / (mu + x) dx."""
+def _chandrasekhar(c: float) -> tuple[Array, Array, Array]:
+    """Nodes and weights on [0, 1] and H there, by iteration of 1/H = sqrt(1 - c) + c/2 int x H(x) / (mu + x) dx."""
     y, wy = gauss(0, 1, 200)
     x, w = y**2, wy * 2 * y  # H is not smooth at 0
+    kernel = c / 2 * w * x / (x[:, None] + x)
     h = np.ones_like(x)
-
-    def inverse(at: Array) -> Array:
-        values: Array = np.sqrt(1 - c) + c / 2 * ((w * x * h) / (at[:, None] + x)).sum(axis=1)
-        return values
-
     for _ in range(2000):
-        h = 1 / inverse(x)
-    return float(1 - np.sqrt(1 - c) / inverse(np.array([mu]))[0])
+        before, h = h, 1 / (np.sqrt(1 - c) + kernel @ h)
+        if np.abs(h - before).max() < 1e-13:
+            break
+    return x, w, h
+
+
+def half_space_albedo(c: float, mu: float) -> float:
+    """Plane albedo of a half space that scatters isotropically with albedo c: 1 - H(mu) sqrt(1 - c)."""
+    x, w, h = _chandrasekhar(c)
+    inverse = np.sqrt(1 - c) + c / 2 * ((w * x * h) / (mu + x)).sum()
+    return float(1 - np.sqrt(1 - c) / inverse)
+
+
+def spherical_albedo(c: float) -> float:
+    """The same under light that is the same from everywhere."""
+    x, w, h = _chandrasekhar(c)
+    return float(1 - 2 * np.sqrt(1 - c) * (w * x * h).sum())
 
 
 @cache

@@ -13,6 +13,7 @@
 #include "bsdf/oren_nayar.h"
 #include "bsdf/sample.h"
 #include "bsdf/sheen.h"
+#include "bsdf/subsurface.h"
 #include "bsdf/translucent.h"
 #include "bsdf/transparent.h"
 
@@ -24,7 +25,61 @@
 namespace glimmer {
 
 using Lobe = std::variant<Lambert, Mirror, Conductor, BaselineMetal, Dielectric, Transparent, Translucent, OrenNayar,
-                          Burley, Sheen, Brushed>;
+                          Burley, Sheen, Brushed, Subsurface>;
+
+namespace lobes {
+
+template <size_t I, class F>
+[[gnu::always_inline]] inline std::invoke_result_t<F &, const Lambert &> call_with(F &f, const Lobe &lobe) {
+    if constexpr (I < std::variant_size_v<Lobe>)
+        return f(*std::get_if<I>(&lobe));
+    else
+        __builtin_unreachable();
+}
+
+/// std::visit, which from twelve alternatives on would call through a table in place of a switch.
+template <class F>
+[[gnu::always_inline]] inline auto visit(F &&f, const Lobe &lobe) {
+    static_assert(std::variant_size_v<Lobe> <= 16);
+    switch (lobe.index()) {
+    case 0:
+        return call_with<0>(f, lobe);
+    case 1:
+        return call_with<1>(f, lobe);
+    case 2:
+        return call_with<2>(f, lobe);
+    case 3:
+        return call_with<3>(f, lobe);
+    case 4:
+        return call_with<4>(f, lobe);
+    case 5:
+        return call_with<5>(f, lobe);
+    case 6:
+        return call_with<6>(f, lobe);
+    case 7:
+        return call_with<7>(f, lobe);
+    case 8:
+        return call_with<8>(f, lobe);
+    case 9:
+        return call_with<9>(f, lobe);
+    case 10:
+        return call_with<10>(f, lobe);
+    case 11:
+        return call_with<11>(f, lobe);
+    case 12:
+        return call_with<12>(f, lobe);
+    case 13:
+        return call_with<13>(f, lobe);
+    case 14:
+        return call_with<14>(f, lobe);
+    case 15:
+        return call_with<15>(f, lobe);
+    default:
+        __builtin_unreachable();
+    }
+}
+
+} // namespace lobes
 
 struct WeightedLobe {
     Lobe lobe;
@@ -45,17 +100,17 @@ class Bsdf : public std::span<const WeightedLobe> {
 };
 
 inline bool is_specular(const Lobe &lobe) {
-    return std::visit([](const auto &l) { return is_specular(l); }, lobe);
+    return lobes::visit([](const auto &l) { return is_specular(l); }, lobe);
 }
 inline Rgb albedo(const Lobe &lobe) {
-    return std::visit([](const auto &l) { return albedo(l); }, lobe);
+    return lobes::visit([](const auto &l) { return albedo(l); }, lobe);
 }
 inline float max_value(const Lobe &lobe) {
-    return std::visit([](const auto &l) { return max_value(l); }, lobe);
+    return lobes::visit([](const auto &l) { return max_value(l); }, lobe);
 }
 /// Part of the light towards wo that a lobe keeps from what lies beneath it.
 inline float coverage(const Lobe &lobe, const Vec3f &wo) {
-    return std::visit(
+    return lobes::visit(
         [&]<class T>(const T &l) {
             if constexpr (std::is_same_v<T, Conductor> || std::is_same_v<T, Brushed> || std::is_same_v<T, Sheen>)
                 return std::min(max_component(coverage(l, wo)), 1.0f);
@@ -99,7 +154,7 @@ inline bool transmits(const Lobe &lobe) {
 inline bool is_diffuse(const Lobe &lobe) {
     return std::holds_alternative<Lambert>(lobe) || std::holds_alternative<OrenNayar>(lobe) ||
            std::holds_alternative<Translucent>(lobe) || std::holds_alternative<Burley>(lobe) ||
-           std::holds_alternative<Sheen>(lobe);
+           std::holds_alternative<Sheen>(lobe) || std::holds_alternative<Subsurface>(lobe);
 }
 
 template <class T>
@@ -109,7 +164,7 @@ inline constexpr bool kNeedsEta = std::is_same_v<T, Dielectric>;
 inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
     if (const auto *metal = std::get_if<Conductor>(&lobe)) [[likely]]
         return eval(*metal, wo, wi);
-    return std::visit(
+    return lobes::visit(
         [&]<class T>(const T &l) {
             if constexpr (kNeedsEta<T>)
                 return eval(l, wo, wi, eta);
@@ -121,7 +176,7 @@ inline Rgb eval(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
 inline float pdf(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) {
     if (const auto *metal = std::get_if<Conductor>(&lobe)) [[likely]]
         return pdf(*metal, wo, wi);
-    return std::visit(
+    return lobes::visit(
         [&]<class T>(const T &l) {
             if constexpr (kNeedsEta<T>)
                 return pdf(l, wo, wi, eta);
@@ -132,7 +187,7 @@ inline float pdf(const Lobe &lobe, const Vec3f &wo, const Vec3f &wi, float eta) 
 }
 /// u_choice: for lobes that both reflect and transmit.
 inline std::optional<BsdfSample> sample(const Lobe &lobe, const Vec3f &wo, Vec2f u, float eta, float u_choice) {
-    return std::visit(
+    return lobes::visit(
         [&]<class T>(const T &l) {
             if constexpr (kNeedsEta<T>)
                 return sample(l, wo, u, eta, u_choice);
@@ -226,9 +281,10 @@ inline bool is_specular(const Bsdf &bsdf) {
             return false;
     return true;
 }
+/// Mirrors and smooth glass.
 inline bool has_specular(const Bsdf &bsdf) {
     for (const WeightedLobe &l : bsdf)
-        if (is_specular(l.lobe))
+        if (is_specular(l.lobe) && !std::holds_alternative<Subsurface>(l.lobe))
             return true;
     return false;
 }
@@ -236,6 +292,13 @@ inline bool has_specular(const Bsdf &bsdf) {
 inline bool has_diffuse(const Bsdf &bsdf) {
     for (const WeightedLobe &l : bsdf)
         if (std::holds_alternative<Lambert>(l.lobe) || std::holds_alternative<OrenNayar>(l.lobe))
+            return true;
+    return false;
+}
+
+inline bool has_subsurface(const Bsdf &bsdf) {
+    for (const WeightedLobe &l : bsdf)
+        if (std::holds_alternative<Subsurface>(l.lobe))
             return true;
     return false;
 }

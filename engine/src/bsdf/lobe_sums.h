@@ -28,7 +28,7 @@ inline LobeSums albedo_by_kind(const Bsdf &bsdf, const Vec3f &wo) {
     LobeSums sum;
     for (const WeightedLobe &l : bsdf) {
         const float weight = weight_towards(bsdf, l, wo);
-        std::visit(
+        lobes::visit(
             [&]<class T>(const T &lobe) {
                 if constexpr (std::is_same_v<T, Dielectric>) {
                     const float r = reflectance(lobe, wo.z, bsdf.eta);

@@ -218,6 +218,8 @@ Accel::Accel(std::vector<Instance> instances, std::vector<InstanceMotion> motion
         scenes_[k] = scene;
     }
     bvh_bytes_ = std::max(device_->bytes(), before) - before;
+    for (const Bvh &mesh : meshes)
+        mesh_bvhs_.push_back(mesh.get());
 }
 
 /// Over what rays of a kind meet; of spheres over all, which are asked one by one.
@@ -237,7 +239,8 @@ size_t Accel::bytes() const {
     size_t steps = instances_.size();
     for (const InstanceMotion &motion : motions_)
         steps += motion.size();
-    return steps * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + visible_.size() + bvh_bytes_;
+    return steps * sizeof(Instance) + spheres_.size() * sizeof(Sphere) + visible_.size() +
+           mesh_bvhs_.size() * sizeof(RTCScene) + bvh_bytes_;
 }
 
 std::optional<Hit> Accel::intersect(const Ray &ray, RayKind kind) const {

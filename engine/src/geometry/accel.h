@@ -92,6 +92,8 @@ class Accel {
         const Instance &opening = instances_[index];
         return opening.motion == kNone ? opening : interpolate(motions_[opening.motion], time);
     }
+    /// The BVH of an instance's mesh alone, in the mesh's coordinates about its centre.
+    RTCScene mesh_bvh(uint32_t instance) const { return mesh_bvhs_[instance]; }
     RayMask visible_sphere(uint32_t i) const { return visible_.empty() ? kEveryRay : visible_[i]; }
 
   private:
@@ -126,6 +128,7 @@ class Accel {
     bool hides_ = false;
     float reach_;
     std::shared_ptr<const EmbreeDevice> device_;
+    std::vector<RTCScene> mesh_bvhs_;          ///< by instance; kept by the BVHs over them
     std::vector<Bvh> bvhs_;                    ///< one for all kinds of rays that see the same
     std::array<RTCScene, kRayKinds> scenes_{}; ///< theirs, by kind of ray
     size_t bvh_bytes_ = 0;

@@ -89,6 +89,7 @@ void SceneBuilder::use(uint32_t index) {
     scene_.has_dielectrics |= material.interior_ior > 0;
     scene_.has_transmission |= material.bounds.transmits;
     scene_.has_transparency |= material.bounds.transparent;
+    scene_.has_subsurface |= material.bounds.subsurface;
     scene_.has_surfaces |= material.bounds.scatters;
     scene_.max_value = std::max(scene_.max_value, material.bounds.max_value);
 }

@@ -63,6 +63,7 @@ MaterialBounds SceneBuilder::bounds_of_varying(uint32_t material, float &interio
     }
     bounds.scatters = !flat.lobes.empty();
     bounds.transparent = !is_black(flat.transparency);
+    bounds.subsurface = has_subsurface(Bsdf(flat.lobes));
     interior = interior_ior(flat.lobes);
     return bounds;
 }
@@ -144,6 +145,7 @@ void SceneBuilder::build_shaders() {
         scene_.materials.set_varying(i, shaders->varying_of[i], bounds, interior);
         scene_.has_dielectrics |= interior > 0;
         scene_.has_transparency |= bounds.transparent;
+        scene_.has_subsurface |= bounds.subsurface;
         scene_.has_surfaces |= scene_.materials.bounds(i).scatters;
         scene_.max_value = std::max(scene_.max_value, scene_.materials.bounds(i).max_value);
     }

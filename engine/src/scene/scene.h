@@ -74,6 +74,7 @@ class Scene {
     bool has_dielectrics = false;  ///< bodies of glass
     bool has_transmission = false; ///< surfaces that scatter light to their other side; glass among them
     bool has_transparency = false; ///< surfaces that let some light straight through
+    bool has_subsurface = false;   ///< bodies in which light wanders beneath the surface
     bool has_visibility = false;   ///< objects, lights or an environment that some rays do not see; holdouts
     /// Shadow rays and paths do not meet the same, or not the same lights: what one of the two finds, the other may
     /// not, and how they share the light shows in the picture (Cycles' weights, integrator/mis.h).

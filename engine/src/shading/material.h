@@ -18,6 +18,7 @@ struct MaterialBounds {
     bool specular = false;    ///< any mirror or smooth glass
     bool transmits = false;   ///< light passes to the other side
     bool transparent = false; ///< some of it straight through
+    bool subsurface = false;  ///< light leaves elsewhere than where it enters
 };
 
 struct Material {

@@ -2,8 +2,10 @@
 // A material as a caller describes it: its type and the values of its parameters, checked but not yet built.
 #pragma once
 
+#include "bsdf/burley.h"
 #include "bsdf/ggx.h"
 #include "bsdf/sheen.h"
+#include "bsdf/subsurface.h"
 #include "math/vec.h"
 
 #include <cstdint>
@@ -27,6 +29,7 @@ enum class MaterialType : uint8_t {
     burley,
     sheen,
     layer,
+    subsurface,
     count
 };
 
@@ -62,8 +65,14 @@ struct MaterialDescription {
     FacetScattering facets = FacetScattering::single;
     Rgb reflection{1}, transmission{1}, transmittance;
     DielectricLobes lobes = DielectricLobes::both;
-    Rgb color;
+    Rgb color{1};
     SheenModel model = SheenModel::fibers;
+    BurleyPart part = BurleyPart::whole;
+    Rgb radius; ///< of subsurface scattering, lengths
+    float anisotropy = 0, entry_ior = 1.4f, entry_alpha = 1;
+    SubsurfaceModel walk = SubsurfaceModel::random_walk;
+    SubsurfaceEntry entry = SubsurfaceEntry::refracted;
+    SubsurfaceBoundary boundary = SubsurfaceBoundary::lambert;
     float weight = 0;
     uint32_t a = 0, b = 0; ///< materials before this one
 

@@ -31,6 +31,7 @@ inline constexpr std::array kMaterials = std::to_array<glimmer_material_info_t>(
     {"burley", 1, "Disney's diffuse surface (Burley 2012): not energy conserving"},
     {"sheen", 1, "cloth's shine towards grazing angles"},
     {"layer", 1, "a material on top of another, which gets what the upper one leaves to it"},
+    {"subsurface", 1, "light enters a body, wanders within, and leaves it diffusely elsewhere"},
 });
 static_assert(kMaterials.size() == size_t(MaterialType::count));
 
@@ -41,7 +42,9 @@ struct ParameterRow {
     std::variant<float MaterialDescription::*, Rgb MaterialDescription::*, uint32_t MaterialDescription::*,
                  Masking MaterialDescription::*, DielectricFresnel MaterialDescription::*,
                  DielectricLobes MaterialDescription::*, FacetScattering MaterialDescription::*,
-                 SheenModel MaterialDescription::*>
+                 SheenModel MaterialDescription::*, BurleyPart MaterialDescription::*,
+                 SubsurfaceModel MaterialDescription::*, SubsurfaceEntry MaterialDescription::*,
+                 SubsurfaceBoundary MaterialDescription::*>
         member;
 };
 
@@ -54,6 +57,7 @@ struct Range {
 };
 inline constexpr Range kUnit{0, 1};
 inline constexpr Range kDirection{-1, 1};
+inline constexpr Range kCosine{-0.99, 0.99};
 inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity()};
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 
@@ -180,6 +184,8 @@ inline constexpr std::array kParameters = [] {
 
         color(T::burley, "albedo", &D::albedo, kUnit, ""),
         number(T::burley, "roughness", &D::roughness, kUnit, ""),
+        word(T::burley, "part", &D::part, "whole base retro", "part",
+             "base: what knows no roughness; retro: what rough surfaces send back"),
         emission(T::burley),
 
         color(T::sheen, "color", &D::color, kUnit, ""),
@@ -192,6 +198,20 @@ inline constexpr std::array kParameters = [] {
         material(T::layer, "a", &D::a, ""),
         material(T::layer, "b", &D::b, ""),
         emission(T::layer),
+
+        color(T::subsurface, "albedo", &D::albedo, kUnit, "of a half-space"),
+        color(T::subsurface, "radius", &D::radius, kNonNegative, "lengths; a channel of less than 1e-8 is diffuse"),
+        word(T::subsurface, "model", &D::walk, "random_walk fixed_radius skin", "model",
+             "the radius is the mean free path; 4 pi of them; or that of a diffusion dipole of the ior"),
+        word(T::subsurface, "entry", &D::entry, "refracted diffuse both", "kind of entry",
+             "by facets of ior and alpha; by cosine; half by each"),
+        optional(number(T::subsurface, "ior", &D::entry_ior, kPositive, ""), 1.4f),
+        optional(number(T::subsurface, "alpha", &D::entry_alpha, kUnit, "GGX width of the facets"), 1),
+        optional(number(T::subsurface, "anisotropy", &D::anisotropy, kCosine, "mean cosine of scattering"), 0),
+        optional(color(T::subsurface, "color", &D::color, kUnit, "factor of what comes out"), 1),
+        word(T::subsurface, "boundary", &D::boundary, "lambert burley", "boundary",
+             "burley: less light at grazing angles, in and out"),
+        emission(T::subsurface),
     });
 }();
 

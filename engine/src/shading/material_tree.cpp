@@ -51,9 +51,10 @@ Lobe to_lobe(const MaterialDescription &m) {
     case MaterialType::translucent:
         return Translucent{m.albedo};
     case MaterialType::burley:
-        return Burley{m.albedo, m.roughness};
+        return Burley{m.albedo, m.roughness, m.part};
     case MaterialType::sheen:
         return Sheen{m.color, m.roughness, m.model};
+    case MaterialType::subsurface:
     case MaterialType::mix:
     case MaterialType::add:
     case MaterialType::layer:
@@ -112,6 +113,31 @@ uint32_t lobes_from(size_t begin, const FlatMaterial &out, const MaterialDescrip
     return bits;
 }
 
+/// Channels whose light leaves where it enters become a diffuse lobe.
+void add_subsurface(const MaterialDescription &m, const Standing &standing, FlatMaterial &out) {
+    constexpr float kLeastIor = 1.01f, kMostIor = 3.8f;
+    Subsurface walk{m.albedo,      m.radius, m.color, m.anisotropy, std::clamp(m.entry_ior, kLeastIor, kMostIor),
+                    m.entry_alpha, m.walk,   m.entry, m.boundary};
+    Rgb diffuse;
+    for (int c = 0; c < 3; ++c)
+        if (!(m.radius[c] >= kLeastSubsurfaceRadius)) {
+            diffuse[c] = m.albedo[c] * m.color[c];
+            walk.albedo[c] = 0;
+            walk.radius[c] = 1;
+        }
+    const auto push = [&](const Lobe &lobe) {
+        out.lobes.push_back({lobe, standing.weight, 0, standing.above, standing.cover});
+    };
+    if (!is_black(diffuse)) {
+        if (m.boundary == SubsurfaceBoundary::burley)
+            push(Burley{diffuse, 0, BurleyPart::base});
+        else
+            push(Lambert{diffuse});
+    }
+    if (!is_black(walk.albedo) || is_black(diffuse))
+        push(walk);
+}
+
 void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, const Standing &standing,
                 const ProgramOutputs *outputs, FlatMaterial &out) {
     const float weight = standing.weight;
@@ -152,6 +178,9 @@ void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, cons
         break;
     case MaterialType::transparent:
         out.transparency += m.transmittance * weight;
+        break;
+    case MaterialType::subsurface:
+        add_subsurface(m, standing, out);
         break;
     default:
         out.lobes.push_back({to_lobe(m), weight, 0, standing.above, standing.cover});

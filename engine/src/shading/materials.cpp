@@ -12,7 +12,8 @@ void Materials::add(Material material, std::span<const WeightedLobe> lobes) {
                        .scatters = !bsdf.empty(),
                        .specular = has_specular(bsdf),
                        .transmits = transmits(bsdf),
-                       .transparent = !is_black(material.transparency)};
+                       .transparent = !is_black(material.transparency),
+                       .subsurface = has_subsurface(bsdf)};
     material.interior_ior = interior_ior(lobes);
     material.lobe_begin = uint32_t(lobes_.size());
     material.lobe_count = uint32_t(lobes.size());

@@ -15,7 +15,7 @@ namespace {
 size_t leaves(std::span<const MaterialDescription> nodes, uint32_t index) {
     const MaterialDescription &m = nodes[index];
     if (!has_parts(m))
-        return 1;
+        return m.type == MaterialType::subsurface ? 2 : 1;
     return std::min(leaves(nodes, m.a) + leaves(nodes, m.b), ClosureArena::kMaxClosures + 1);
 }
 

@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike
 
 from tests.engine.probe.call import Array, call, empty, f32
 
-LAMBERT, MIRROR, CONDUCTOR, REPORT_METAL, DIELECTRIC, TRANSPARENT, TRANSLUCENT, OREN_NAYAR, BURLEY, SHEEN, BRUSHED = (
-    range(11)
-)
+LAMBERT, MIRROR, CONDUCTOR, REPORT_METAL, DIELECTRIC, TRANSPARENT = range(6)
+TRANSLUCENT, OREN_NAYAR, BURLEY, SHEEN, BRUSHED, SUBSURFACE = range(6, 12)
+WHOLE, BASE, RETRO = range(3)
+RANDOM_WALK, FIXED_RADIUS, SKIN = range(3)
+REFRACTED, DIFFUSE, BOTH = range(3)
 FIBERS, SCHLICK_SHEEN, VELVET = range(3)
 SMITH, SMITH_SEPARABLE, SCHLICK_GGX = range(3)
 NOTHING, SMOOTH, SPECULAR = range(3)
@@ -38,7 +40,9 @@ class Lobe:
     """f0 given means a curve from it to 1; else eta and k. Of a dielectric `eta` is (IOR, 0 for refraction alone, 1
     with multiple scattering), `color` its transmission and `f0` its reflection; of what is brushed `eta` is (both
     widths, turn of the tangent). `flag`: multiple scattering of a conductor and of Oren-Nayar, the model of a sheen. Of
-    what is diffuse `alpha` is the roughness. `above`: a bit for each of the lobes that lie above this one."""
+    what is diffuse `alpha` is the roughness. Of subsurface `f0` is the radius, `curve_ior` the anisotropy, `eta` (IOR),
+    `flag` the model and `masking` the entry; of Burley `flag` is the part. `above`: a
+    bit for each of the lobes that lie above this one."""
 
     type: int
     weight: float = 1
@@ -117,6 +121,18 @@ def adjoint_weights(lobes: Sequence[Lobe], wo: ArrayLike, u_lobe: Array, u: Arra
         np.uint64(n),
         out,
     )
+    return out
+
+
+class Coefficients(NamedTuple):
+    sigma_t: Array
+    alpha: Array
+    weight: Array
+
+
+def subsurface_medium(lobe: Lobe) -> Coefficients:
+    out = Coefficients(empty(3), empty(3), empty(3))
+    call("probe_subsurface_medium", _lobes([lobe])[0], *out)
     return out
 
 

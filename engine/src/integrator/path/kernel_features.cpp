@@ -14,6 +14,7 @@ KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool s
     f.surfaces = scene.has_surfaces;
     f.transmission = scene.has_transmission;
     f.transparency = scene.has_transparency;
+    f.subsurface = scene.has_subsurface;
     f.bvh = !scene.accel->without_bvh();
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         f.other_lights |= !is_emissive_sphere(scene.lights[i]);

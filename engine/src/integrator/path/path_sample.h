@@ -376,6 +376,10 @@ class PathSample {
     /// Turns the path into one that leaves a mirror or a smooth dielectric along wi.
     void leave_specular(State &state, const Interaction &surface, const Vec3f &wi);
 
+    /// Lets the path wander within the body that it met, along wi at first, and go on from where it leaves it.
+    [[gnu::noinline]] void scatter_beneath(State state, const Subsurface &lobe, const Interaction &surface,
+                                           const Vec3f &geometric, const Vec3f &wi);
+
     // Rays and roulette
 
     std::optional<Hit> intersect(const Ray &ray, RayKind kind) {

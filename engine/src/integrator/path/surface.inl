@@ -6,6 +6,7 @@
 #include "integrator/mis.h"
 #include "integrator/path/path_sample.h"
 #include "integrator/shading_frame.h"
+#include "integrator/subsurface_walk.h"
 #include "integrator/vpl/bounded_fraction.h"
 
 #include <array>
@@ -86,6 +87,11 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
         State next = state;
         next.beta *= s->weight * (1 / float(branches));
         next.rr_scale /= float(branches);
+        if constexpr (F.subsurface)
+            if (const auto *beneath = std::get_if<Subsurface>(&bsdf[s->lobe].lobe)) {
+                scatter_beneath(next, *beneath, surface, geometric, wi);
+                continue;
+            }
         if (lobes != Lobes::all && !s->specular)
             next.beta *= fraction_of(lobes, vertex_fraction(*oriented_surface, s->weight * s->pdf, s->wi));
         if (s->transmitted)
@@ -103,6 +109,40 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
             leave_rough(next, surface, geometric, wi, s->pdf * float(branches));
         push(next);
     }
+}
+
+template <KernelFeatures F>
+void PathSample<F>::scatter_beneath(State state, const Subsurface &lobe, const Interaction &surface,
+                                    const Vec3f &geometric, const Vec3f &wi) {
+    auto exit = walk_beneath(scene(), lobe, surface, geometric, wi, state.beta, state.ray.time, sampler_, trace_);
+    if (!exit)
+        return;
+    state.beta *= exit->weight;
+    Interaction &at = exit->surface;
+    if (scene().materials[at.material].varying != Material::kConstant) // which may turn the normal
+        scene().materials.shade(at, {exit->outward, 0, state.ray.time}, arena_);
+    const float side = std::copysign(1.0f, dot(exit->outward, at.geometric_normal));
+    const OrientedSurface oriented{Frame(at.shading_normal * side), exit->outward, {0, 0, 1}};
+    const Lobe leaving =
+        lobe.boundary == SubsurfaceBoundary::burley ? Lobe(Burley{Rgb(1), 0, BurleyPart::base}) : Lobe(Lambert{Rgb(1)});
+    const WeightedLobe whole{leaving, 1, 1};
+    const Bsdf bsdf(std::span(&whole, 1));
+    state.passed += 1; // no more the camera's own ray, whose numbers the other branches and lobes draw
+    sample_lights_at(state, at, bsdf, oriented, 1, Lobes::all);
+    const auto s = sample(bsdf, oriented.wo, 0, sampler_.next_2d());
+    if (!s)
+        return;
+    const Vec3f direction = normalize(oriented.frame.to_world(s->wi));
+    state.beta *= s->weight;
+    if (!is_on_side(*s, direction, oriented.geometric) || !survives(state, at.position, kRouletteScaleAtSurfaces))
+        return;
+    if constexpr (F.passes)
+        set_shares(state, state, bsdf, oriented.wo, *s, scene());
+    state.ray_flags = kReflectionRay | kDiffuseRay;
+    state.emission_mode = EmissionMode::mis;
+    set_kind(state, RayKind::diffuse);
+    leave_rough(state, at, oriented.geometric, direction, s->pdf);
+    push(state);
 }
 
 template <KernelFeatures F>

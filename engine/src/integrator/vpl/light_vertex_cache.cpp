@@ -70,6 +70,8 @@ const char *reason_against(const Scene &scene, const DepthLimits &limits, const 
         return "the fog is so dense and white that light wanders through all of the scene";
     if (scene.hides_beyond_camera || scene.techniques_differ)
         return "objects or lights that some rays do not see, lamps without shadows or with a limit of bounces";
+    if (scene.has_subsurface)
+        return "light wanders beneath surfaces";
     if (!has_light_to_start_at(scene))
         return "no light but from infinity";
     return nullptr;
