@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..film.passes import DENOISED_BY, RenderPass, engine_names, missing
+from ..film.passes import DENOISED_BY, NOISY, RenderPass, engine_names, missing
 from ..scene.description import Film, Mist, RenderSettings
 from ..scene.problems import GlimmerError, Notices
 
@@ -158,4 +158,5 @@ def export_settings(
         adaptive=settings.use_adaptive,
         passes=names,
         denoise=is_denoised,
+        independent_pixels=NOISY in passes,  # denoised now, or by what it is stored for
     )

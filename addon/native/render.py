@@ -72,6 +72,7 @@ class NativeRender:
         desc.max_depth = -1 if settings.max_depth is None else settings.max_depth
         desc.max_scatter = -1 if settings.max_scatter is None else settings.max_scatter
         desc.adaptive = settings.adaptive
+        desc.independent_pixels = settings.independent_pixels
         names = (*settings.passes, "alpha") if self.has_alpha else settings.passes
         desc.passes, desc.passes_above = structs.pass_bits(self._pass(name)[0] for name in names)
         return desc

@@ -318,6 +318,7 @@ class RenderDesc(ctypes.Structure):
         ("adaptive", c_int),
         ("full_kernel", c_int),
         ("passes_above", c_uint32),
+        ("independent_pixels", c_int),
     ]
 
 

@@ -140,7 +140,8 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
     use_denoising: bpy.props.BoolProperty(
         name="Denoise",
         description="Runs Open Image Denoise over the finished picture, as this Blender carries it; the rendered one is"
-        " kept as the pass Noisy Image. A bias, and how wrong the picture is then is not known",
+        " kept as the pass Noisy Image, and its samples count for one pixel each. A bias, and how wrong the picture is"
+        " then is not known",
         default=False,
         update=_change_passes,
     )

@@ -482,6 +482,7 @@ class RenderSettings:
     adaptive: bool = False
     passes: tuple[str, ...] = ("combined",)  # the engine's names
     denoise: bool = False  # by the add-on, in the end
+    independent_pixels: bool = False  # samples count for one pixel each, as denoisers need it
 
 
 @dataclass(frozen=True)

@@ -146,6 +146,8 @@ Options parse_options(int argc, char **argv) {
     app.add_option("--error", error, "stop when the relMSE is below this with confidence")->type_name("RELMSE");
     app.add_flag("--adaptive", options.adaptive,
                  "more samples where the picture needs them, fewer elsewhere; --spp is the mean");
+    app.add_flag("--independent-pixels", options.independent_pixels,
+                 "samples count for one pixel each, as denoisers need it: more noise, none of it shared");
     app.add_flag("--full-kernel", options.full_kernel,
                  "run the code for all scenes, not what was compiled for ones like this: slower, the same bits");
     app.add_option("--integrator", integrator, "method; see --list-integrators")->type_name("NAME");

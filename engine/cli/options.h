@@ -23,7 +23,8 @@ struct RenderOptions {
     std::optional<std::filesystem::path> checkpoint, report, curve;
     double checkpoint_seconds = 30; ///< between two saves to the checkpoint
     bool adaptive = false;          ///< sampling
-    bool full_kernel = false;       ///< not the one compiled for such scenes
+    bool independent_pixels = false;
+    bool full_kernel = false; ///< not the one compiled for such scenes
     bool quiet = false;
 };
 

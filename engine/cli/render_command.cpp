@@ -39,6 +39,7 @@ RenderHandle create_render(glimmer_scene *scene, const DepthLimits &limits, cons
     desc.threads = options.threads;
     desc.tile_size = options.tile;
     desc.adaptive = options.adaptive;
+    desc.independent_pixels = options.independent_pixels;
     desc.full_kernel = options.full_kernel;
     desc.max_depth = limits.max_depth;
     desc.max_scatter = limits.max_scatter;

@@ -552,7 +552,9 @@ typedef struct glimmer_render_desc {
                         0 by default */
     int full_kernel; /* not 0: the code that can render any scene, in place of what was compiled for ones like this:
                         slower, the same bits; for tests. 0 by default */
-    uint32_t passes_above; /* bit set of (1 << (glimmer_pass - 32)) */
+    uint32_t passes_above;  /* bit set of (1 << (glimmer_pass - 32)) */
+    int independent_pixels; /* not 0: each sample counts for one pixel, drawn by the pixel's filter, as denoisers need
+                               it; else for every pixel whose filter holds it, which has less noise. 0 by default */
 } glimmer_render_desc;
 
 GLIMMER_API void glimmer_render_init(glimmer_render_desc *desc);

@@ -128,7 +128,10 @@ def denoised() -> None:
     inside.render(OUT / "denoised.exr")
     facts["denoised_report"] = dict(reports.last())
     scene.glimmer.use_denoising = False
+    inside.render(OUT / "plain.exr")
+    scene.view_layers[0].cycles.denoising_store_passes = True
     inside.render(OUT / "not_denoised.exr")
+    scene.view_layers[0].cycles.denoising_store_passes = False
     scene.glimmer.samples = 8
 
 

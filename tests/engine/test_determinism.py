@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from addon.scene import description as d
 from tests.engine.bits import all_passes, assert_same_bits, broken_off_within_batches, pictures
 from tests.engine.library import Image, Render, Scene
 from tests.engine.worlds import everything
@@ -20,6 +21,13 @@ INTEGRATORS = ("path", "baseline")
 @cache
 def scene(fog: bool = True, glass: bool = True) -> Scene:
     return Scene(everything(WIDTH, HEIGHT, fog, glass))
+
+
+@cache
+def filtered(fog: bool = True, crop: tuple[int, int, int, int] | None = None) -> Scene:
+    """On a film whose samples count for pixels of other cells and tiles."""
+    description = everything(WIDTH, HEIGHT, fog)
+    return Scene(replace(description, film=d.Film(WIDTH, HEIGHT, crop, "blackman_harris", 3)))
 
 
 def passes() -> tuple[str, ...]:
@@ -138,3 +146,27 @@ def test_a_crop_is_cut_from_the_picture() -> None:
         cut = {name: image[y0:y1, x0:x1] for name, image in reference(integrator, fog=False).items()}
         cut = {name: np.ascontiguousarray(image) for name, image in cut.items()}
         assert_same_bits(cut, rendered(part, integrator=integrator))
+
+
+@pytest.mark.parametrize(("threads", "tile_size"), [(3, 32), (2, 64), (1, 1000)])
+def test_samples_that_count_for_several_pixels(threads: int, tile_size: int) -> None:
+    reference = rendered(filtered(), threads=2, tile_size=96)
+    assert np.unique(reference["combined"]).size > reference["combined"].size / 2
+    assert_same_bits(reference, rendered(filtered(), threads=threads, tile_size=tile_size))
+
+
+def test_samples_that_count_for_several_pixels_resume() -> None:
+    settings: dict[str, Any] = {"seed": 5, "samples": SAMPLES, "passes": passes(), "tile_size": 32, "threads": 2}
+    state = broken_off_within_batches(filtered(), settings)
+    with Render(filtered(), **settings) as render:
+        render.load(state)
+        assert_same_bits(rendered(filtered()), pictures(render.run()))
+
+
+@pytest.mark.parametrize("crop", [(7, 5, 50, 45), (32, 1, 33, 64), (31, 33, 70, 66)])
+def test_a_crop_of_samples_that_count_for_several_pixels(crop: tuple[int, int, int, int]) -> None:
+    """Also where it begins or ends at the edge of a cell, or next to it."""
+    x0, y0, x1, y1 = crop
+    whole = rendered(filtered(fog=False))
+    cut = {name: np.ascontiguousarray(image[y0:y1, x0:x1]) for name, image in whole.items()}
+    assert_same_bits(cut, rendered(filtered(fog=False, crop=crop), tile_size=32, threads=3))

@@ -310,9 +310,10 @@ def test_both_integrators(name: str) -> None:
 
 
 def all_estimators_at_work() -> Builder:
-    """Haze over scales that glint, with moons in view."""
+    """Haze over scales that glint, with moons in view, on a film whose filter is wider than a pixel."""
     haze = d.Medium((0.01, 0.02, 0.01), (0.06, 0.05, 0.07))
     scene = Builder(camera((0, -4, 3), (0, 8, 2.5), 60), 32, 24, medium=haze)
+    scene.seen_by(camera((0, -4, 3), (0, 8, 2.5), 60), d.Film(32, 24, None, "blackman_harris", 3))
     add_scales(scene, d.Conductor(0.05, f0=grey(0.8))).sphere((-3, 11, 4), 0.6, d.Light((6, 1, 0.6)))
     return scene.sphere((0.5, 16, 6), 0.7, d.Light((3, 3, 9))).sphere((2, 9, 3), 0.4, d.Light((1, 9, 2)))
 
@@ -328,6 +329,7 @@ SWITCHES = [
     "late-roulette",
     "pixel-ris",
     "light-vertices",
+    "reconstruction",
 ]
 
 

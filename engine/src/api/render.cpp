@@ -70,6 +70,7 @@ glimmer_result glimmer_render_create(glimmer_scene *scene, const glimmer_render_
             settings.passes |= bit_of(GLIMMER_PASS_ALPHA);
         settings.limits = {depth_limit(d.max_depth, "max_depth"), depth_limit(d.max_scatter, "max_scatter")};
         settings.adaptive = d.adaptive != 0;
+        settings.independent_pixels = d.independent_pixels != 0;
         settings.full_kernel = d.full_kernel != 0;
         auto handle = std::make_unique<glimmer_render>();
         handle->session = std::make_unique<Session>(s.scene, settings);

@@ -9,8 +9,11 @@
 
 namespace glimmer {
 
-/// pixel: of the whole picture. By filter importance sampling: every sample counts the same and none leaves its pixel's
-/// sum.
+/// Through the point that is `offset` pixels from the middle of a pixel of the whole picture, or of those around it
+/// (a negative number as a signed one has it).
+CameraRay camera_ray_at(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f offset, Vec2f u_lens,
+                        ShutterTime time);
+/// By filter importance sampling: every sample counts the same and none leaves its pixel's sum.
 CameraRay sample_camera_ray(const Scene &scene, uint32_t pixel_x, uint32_t pixel_y, Vec2f u_pixel, Vec2f u_lens,
                             ShutterTime time);
 

@@ -145,6 +145,18 @@ constexpr PassBits bit_of(uint32_t pass) {
 inline constexpr PassBits kPassesOfMore = bit_of(GLIMMER_PASS_COUNT) - bit_of(GLIMMER_PASS_ALPHA);
 inline constexpr PassBits kLightGroupPasses = bit_of(GLIMMER_PASS_COUNT) - bit_of(GLIMMER_PASS_LIGHT_GROUP);
 
+/// Those of light, which is a sum over all that a sample has met.
+inline constexpr PassBits kLightPasses = [] {
+    PassBits passes = kLightGroupPasses;
+    for (const glimmer_pass pass :
+         {GLIMMER_PASS_EMISSION, GLIMMER_PASS_DIRECT, GLIMMER_PASS_INDIRECT, GLIMMER_PASS_FOG, GLIMMER_PASS_EMIT,
+          GLIMMER_PASS_ENVIRONMENT, GLIMMER_PASS_DIFFUSE_DIRECT, GLIMMER_PASS_DIFFUSE_INDIRECT,
+          GLIMMER_PASS_GLOSSY_DIRECT, GLIMMER_PASS_GLOSSY_INDIRECT, GLIMMER_PASS_TRANSMISSION_DIRECT,
+          GLIMMER_PASS_TRANSMISSION_INDIRECT, GLIMMER_PASS_VOLUME_DIRECT, GLIMMER_PASS_VOLUME_INDIRECT})
+        passes |= bit_of(pass);
+    return passes;
+}();
+
 inline size_t pass_channels(glimmer_pass pass) {
     return std::strlen(kPasses[size_t(pass)].info.channels);
 }

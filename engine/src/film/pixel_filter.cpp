@@ -33,7 +33,26 @@ std::vector<float> invert_blackman_harris() {
     return inverse;
 }
 
+/// In one dimension.
+void set_weights(const PixelFilter &filter, float folded, uint32_t reach, float *weights) {
+    float sum = 0;
+    for (uint32_t i = 0; i <= 2 * reach; ++i) {
+        weights[i] = filter.density(folded + float(reach) - float(i));
+        sum += weights[i];
+    }
+    for (uint32_t i = 0; i <= 2 * reach; ++i) // rounding may move a sample off the edge of the only filter there
+        weights[i] = sum > 0 ? weights[i] / sum : float(i == reach);
+}
+
 } // namespace
+
+FilterWeights PixelFilter::weights(Vec2f folded) const {
+    FilterWeights result;
+    result.reach = reach();
+    set_weights(*this, folded.x, result.reach, result.x.data());
+    set_weights(*this, folded.y, result.reach, result.y.data());
+    return result;
+}
 
 PixelFilter PixelFilter::blackman_harris(float width) {
     return PixelFilter(width, invert_blackman_harris());

@@ -2,11 +2,26 @@
 // The filter of a pixel: how much each place of the film around its middle counts for it. Separable, never negative.
 #pragma once
 
+#include "math/vec.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace glimmer {
+
+/// What a sample counts in each pixel around the one that it lies in: x[reach + i] y[reach + j] in the pixel i to the
+/// right and j below. As it is made: 1 in its own alone.
+struct FilterWeights {
+    /// Filters that reach farther are not reconstructed with. Chosen: a sample is added to the squares of pixels.
+    static constexpr uint32_t kMostReach = 2;
+
+    uint32_t reach = 0;
+    std::array<float, 2 * kMostReach + 1> x{1}, y{1};
+};
 
 class PixelFilter {
   public:
@@ -16,6 +31,8 @@ class PixelFilter {
     static PixelFilter blackman_harris(float width);
 
     float width() const { return width_; } ///< pixels
+    /// How many pixels to each side of its own a sample may count for.
+    uint32_t reach() const { return uint32_t(std::max(std::ceil(0.5f * width_ - 0.5f), 0.0f)); }
 
     // In one of the two dimensions, offsets in pixels from the middle of the pixel:
 
@@ -41,6 +58,18 @@ class PixelFilter {
             ++i;
         return density_[i];
     }
+
+    // For samples that count for every pixel whose filter holds them (docs/method.md, section 18):
+
+    /// The offset of a sample within a pixel, -0.5 to 0.5, drawn in proportion to the sum of what the filters of all
+    /// pixels have there.
+    float sample_folded(float u) const {
+        const float offset = sample(u);
+        return offset - std::floor(offset + 0.5f);
+    }
+    /// The filter of each pixel around over that sum, for a reach of kMostReach at most. They sum to 1, and so do those
+    /// that one pixel has of samples at this offset in all pixels around it.
+    FilterWeights weights(Vec2f folded) const;
 
   private:
     explicit PixelFilter(float width, std::vector<float> inverse);

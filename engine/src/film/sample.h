@@ -67,6 +67,29 @@ struct FilmSample {
             more->expose(factor);
     }
     Rgb radiance() const { return emission + direct + indirect + medium; }
+    /// Of the picture or, where it is empty, of the environment alone that one of its passes shows.
+    bool has_light() const { return !is_black(radiance()) || (more && !is_black(more->environment)); }
+};
+
+/// What does not count as the rest of its sample does.
+struct SampleParts {
+    FilmSample seen;      ///< of emissive spheres that the camera's own ray met: each pixel has its weight for them
+    FilmSample resampled; ///< light of another point of the pixel
+    Vec2f resampled_at;   ///< its offset from the middle
+    FilmSample own;       ///< light of many points, drawn by the filter of the pixel, which counts there alone
+    PassSample seen_passes, resampled_passes, own_passes; ///< the same of what only some passes show
+
+    /// Makes it that of a sample that has met nothing yet.
+    void clear(bool has_passes) {
+        seen = resampled = own = {};
+        if (has_passes)
+            seen_passes = resampled_passes = own_passes = {};
+    }
+    void show_passes() {
+        seen.more = &seen_passes;
+        resampled.more = &resampled_passes;
+        own.more = &own_passes;
+    }
 };
 
 } // namespace glimmer

@@ -33,9 +33,15 @@ class Integrator {
                                                            TraceContext & /*trace*/) const {
         return nullptr;
     }
-    /// The radiance along one camera ray. block: that of the sample's wave and pixel; null where nothing is shared.
-    virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
-                              TraceContext &trace) const = 0;
+    /// Whether samples are to count for every pixel whose filter holds them, where the film can.
+    virtual bool reconstructs() const { return false; }
+    /// The weight of SampleParts::seen in a pixel of the whole picture; the pixel's own part brings the rest.
+    virtual float weight_of_seen(uint32_t /*pixel_x*/, uint32_t /*pixel_y*/) const { return 1; }
+    /// The radiance along one camera ray. block: that of the sample's wave and pixel, or of the block next to a pixel
+    /// beyond the picture; null where nothing is shared. parts: takes what counts otherwise than the rest; null: all
+    /// counts alike.
+    virtual FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block, TraceContext &trace,
+                              SampleParts *parts = nullptr) const = 0;
 
     /// Names the code that runs, for the report.
     virtual std::string kernel() const = 0;

@@ -19,6 +19,7 @@ constexpr std::array kWithout{
     &EstimatorFlags::late_roulette,
     &EstimatorFlags::pixel_ris,
     &EstimatorFlags::light_vertices,
+    &EstimatorFlags::reconstruction,
 };
 static_assert(kIntegrators.size() == 2 + kWithout.size());
 

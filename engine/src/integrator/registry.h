@@ -17,7 +17,7 @@ namespace glimmer {
 
 /// The default, the baseline, and the default less one of its estimators each (path/estimator_flags.h). The last member
 /// is the name that the integrator had before; it works for one more release.
-inline constexpr std::array<glimmer_integrator_info_t, 12> kIntegrators{{
+inline constexpr std::array<glimmer_integrator_info_t, 13> kIntegrators{{
     {"path", "path tracing; fog by light vertices that all pixels share, the camera's segments of it light by light",
      nullptr},
     {"baseline", "the method that Glimmer grew from: one light a place, exponential free flights, balance heuristic",
@@ -35,6 +35,7 @@ inline constexpr std::array<glimmer_integrator_info_t, 12> kIntegrators{{
     {"path-no-late-roulette", "path, but roulette by throughput from the start", nullptr},
     {"path-no-pixel-ris", "path, but one point of a pixel is lit where bevels glint", "path-no-pixel-points"},
     {"path-no-light-vertices", "path, but light scattered more than once comes from paths alone", nullptr},
+    {"path-no-reconstruction", "path, but each sample counts for one pixel, drawn by the pixel's filter", nullptr},
 }};
 
 /// The integrator of that name, present or former, as an index into kIntegrators.

@@ -8,7 +8,7 @@ namespace glimmer {
 
 namespace {
 
-constexpr uint64_t kMagic = 0x34304d494c47u; // "GLIM04"
+constexpr uint64_t kMagic = 0x35304d494c47u; // "GLIM05"
 
 /// Everything but the curve and the film, which follow. The checksum of all that comes after it stands first.
 struct Head {

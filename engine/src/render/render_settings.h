@@ -20,9 +20,10 @@ struct RenderSettings {
     uint32_t tile_size = 64; ///< pixels
     uint64_t passes = 1;     ///< bit set of 1 << glimmer_pass
     DepthLimits limits;
-    bool adaptive = false;         ///< film/sample_allocation.h
-    bool full_kernel = false;      ///< make_integrator
-    std::vector<Warning> warnings; ///< of the settings themselves, for the report
+    bool adaptive = false;           ///< film/sample_allocation.h
+    bool independent_pixels = false; ///< each sample counts for one: render/reconstruction.h
+    bool full_kernel = false;        ///< make_integrator
+    std::vector<Warning> warnings;   ///< of the settings themselves, for the report
 };
 
 } // namespace glimmer

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "render/report.h"
 
+#include "render/reconstruction.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -126,6 +128,10 @@ std::string report_json(const ReportInput &in) {
         adaptive = object(
             {{"fewest", std::to_string((*in.samples_taken)[0])}, {"most", std::to_string((*in.samples_taken)[1])}});
     std::vector<std::string> left_out = in.integrator.left_out();
+    if (in.integrator.reconstructs())
+        if (const char *reason = reason_against_reconstruction(in.scene, in.settings))
+            left_out.push_back(std::string(reason) +
+                               ": a sample counts for one pixel, not for all whose filter holds it");
     left_out.insert(left_out.end(), in.scene.left_out.begin(), in.scene.left_out.end());
     std::vector<std::string> warnings, warning_codes;
     for (const auto *source : {&in.settings.warnings, &in.scene.warnings})

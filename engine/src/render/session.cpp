@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/float_mode.h"
 #include "render/checkpoint.h"
+#include "render/reconstruction.h"
 #include "render/report.h"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings &setti
     : scene_(std::move(scene)), settings_(completed(settings)),
       integrator_(
           make_integrator(settings.integrator, *scene_, settings.limits, settings.passes, settings.full_kernel)),
-      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes, settings.adaptive),
+      film_(scene_->film.crop_width, scene_->film.crop_height, settings.tile_size, settings.passes, settings.adaptive,
+            film_reach(*scene_, *integrator_, settings)),
       schedule_(film_.tiles().size(), integrator_->shares(), settings_.samples),
       tile_renderer_(*scene_, *integrator_, schedule_, settings.seed, stop_), curve_(settings.target_error),
       changed_tiles_(film_.tiles().size()) {}
@@ -194,7 +196,8 @@ void Session::render_tile(size_t tile, Lock &lock) {
         return;
     }
     faults_.add(*faults);
-    changed_tiles_.add(tile);
+    for (const size_t t : film_.tiles_changed_by(tile))
+        changed_tiles_.add(t);
     ++version_;
     if (schedule_.put_tile(first < end ? seconds / double(end - first) : 0))
         end_batch(lock);

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <optional>
+#include <span>
 
 namespace glimmer {
 
@@ -27,9 +28,15 @@ class TileRenderer {
 
   private:
     struct Work;
-    bool render_block(Work &work, const Rectangle &block, uint64_t wave) const;
-    bool render_pixel(Work &work, uint32_t x, uint32_t y, const Rectangle &block, uint64_t wave,
-                      std::unique_ptr<const BlockData> &shared) const;
+    struct WaveOffset;
+    /// Nothing where each sample counts for one pixel and has a place of its own.
+    std::optional<WaveOffset> offset_of_wave(const Film &film, uint64_t wave) const;
+    /// Cells of one block.
+    bool render_cells(Work &work, std::span<const Film::Cell> cells, uint64_t wave) const;
+    bool render_pixel(Work &work, const Film::Cell &cell, int32_t x, int32_t y, uint64_t wave,
+                      const std::optional<WaveOffset> &offset, std::unique_ptr<const BlockData> &shared) const;
+    void add_parts(Work &work, const Film::Cell &cell, int32_t x, int32_t y, uint64_t wave, const SampleParts &parts,
+                   const FilterWeights &weights) const;
 
     const Scene &scene_;
     const Integrator &integrator_;

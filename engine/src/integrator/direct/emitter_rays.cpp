@@ -27,7 +27,8 @@ uint32_t EmitterRays::rays(uint32_t pixel_x, uint32_t pixel_y) const {
     if (discs_.empty())
         return 0;
     const FilmSettings &film = scene_.film;
-    const Vec2f middle{(float(pixel_x) + 0.5f) / float(film.width), (float(pixel_y) + 0.5f) / float(film.height)};
+    const Vec2f middle{(float(int32_t(pixel_x)) + 0.5f) / float(film.width),
+                       (float(int32_t(pixel_y)) + 0.5f) / float(film.height)};
     return scene_.camera.sees_any(discs_, middle) ? rays_ : 0;
 }
 

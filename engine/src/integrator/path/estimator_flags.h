@@ -28,6 +28,9 @@ struct EstimatorFlags {
     bool pixel_ris = true;
     /// Light that was scattered before reaches the medium by light vertices; else by the paths alone. (../vpl)
     bool light_vertices = true;
+    /// Samples count for every pixel whose filter holds them; else for one, by filter importance sampling.
+    /// (film/film.h)
+    bool reconstruction = true;
 
     bool operator==(const EstimatorFlags &) const = default;
 };
@@ -35,6 +38,7 @@ inline constexpr EstimatorFlags kAllEstimators;
 
 /// The baseline that the others are measured against, the method of the student report that Glimmer began as: one light
 /// a place, exponential free flights, balance heuristic.
-inline constexpr EstimatorFlags kBaselineFlags{false, false, false, false, false, false, false, false, false, false};
+inline constexpr EstimatorFlags kBaselineFlags{false, false, false, false, false, false,
+                                               false, false, false, false, false};
 
 } // namespace glimmer

@@ -19,7 +19,9 @@ KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool s
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         f.other_lights |= !is_emissive_sphere(scene.lights[i]);
     f.visibility = scene.has_visibility;
-    f.estimator_flags = !(flags == kAllEstimators);
+    EstimatorFlags of_kernel = flags;
+    of_kernel.reconstruction = true; // the film's
+    f.estimator_flags = !(of_kernel == kAllEstimators);
     f.passes = scene.film.transparent || (passes & kPassesOfMore);
     return f;
 }

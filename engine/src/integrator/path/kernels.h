@@ -20,6 +20,8 @@ struct PathContext {
     uint32_t pixel_x, pixel_y;
     /// Part of the radiance of an emissive sphere that the camera's own ray brings; emitter_rays.h brings the rest.
     float primary_weight;
+    /// Takes what counts otherwise than the rest; null: all counts alike.
+    SampleParts *parts = nullptr;
 };
 
 struct PathKernel {

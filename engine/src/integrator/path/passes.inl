@@ -122,7 +122,8 @@ void PathSample<F>::pass_surface(const State &state, const Hit &hit, const Inter
 template <KernelFeatures F>
 void PathSample<F>::pass_empty(const State &state, float end, const Medium *medium) {
     if constexpr (F.passes)
-        if (trace_.passes && state.passes.sees_environment)
+        // A path that goes on for the light alone that it meets leaves this to the one that goes on for the rest.
+        if (trace_.passes && state.passes.sees_environment && state.emission_mode != EmissionMode::only)
             trace_.passes->transparency +=
                 mean_component(medium ? state.beta * transmittance(*medium, state.ray, end) : state.beta);
 }

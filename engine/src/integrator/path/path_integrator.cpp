@@ -41,38 +41,46 @@ class PathIntegrator final : public Integrator {
         return light_vertices_.cache->prepare_block(wave, pixels, trace);
     }
 
-    FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block,
-                      TraceContext &trace) const override {
+    bool reconstructs() const override { return flags_.reconstruction; }
+    float weight_of_seen(uint32_t pixel_x, uint32_t pixel_y) const override {
+        return 1 / float(1 + emitter_rays_.rays(pixel_x, pixel_y));
+    }
+    FilmSample sample(const CameraRay &camera, Sampler &sampler, const BlockData *block, TraceContext &trace,
+                      SampleParts *parts) const override {
         const auto *light_vertices = static_cast<const LightVertexBlock *>(block);
         const uint32_t extra_rays = emitter_rays_.rays(camera.pixel_x, camera.pixel_y);
         const float primary_weight = 1 / float(1 + extra_rays);
-        const PathContext context{scene_,         limits_,        flags_,         plan_,
-                                  light_vertices, camera.pixel_x, camera.pixel_y, primary_weight};
+        const PathContext context{scene_,         limits_,        flags_,         plan_, light_vertices,
+                                  camera.pixel_x, camera.pixel_y, primary_weight, parts};
         FilmSample result =
             rays_start_apart()
                 ? kernel_->sample(context, camera.ray,
                                   dielectrics_at(scene_, camera.ray.origin, camera.ray.time, RayKind::camera), sampler,
                                   trace)
                 : kernel_->sample(context, camera.ray, around_camera_, sampler, trace);
+        if (parts && !is_in_picture(camera))
+            return result;
+        FilmSample &own = parts ? parts->own : result;
+        PassSample *own_passes = trace.passes && parts ? &parts->own_passes : trace.passes;
         if (extra_rays) {
             LightGroups groups;
             const Rgb seen = emitter_rays_.sum(extra_rays, camera.pixel_x, camera.pixel_y, camera.ray.time, sampler,
-                                               trace, trace.passes ? &groups : nullptr);
-            result.emission += seen * primary_weight;
-            if (trace.passes) {
-                trace.passes->emit += seen * primary_weight;
-                trace.passes->add_groups(groups, Rgb(primary_weight));
+                                               trace, own_passes ? &groups : nullptr);
+            own.emission += seen * primary_weight;
+            if (own_passes) {
+                own_passes->emit += seen * primary_weight;
+                own_passes->add_groups(groups, Rgb(primary_weight));
             }
         }
         if (light_vertices) {
             const size_t pixel = light_vertices->index(camera.pixel_x, camera.pixel_y);
             const Rgb splatted = light_vertices->splats[pixel];
-            result.medium += splatted;
+            own.medium += splatted;
             result.unfinished |= light_vertices->unfinished;
-            if (trace.passes)
-                trace.passes->volume_indirect += splatted;
-            if (trace.passes && light_vertices->settings.grouped)
-                trace.passes->add_groups(light_vertices->splat_groups[pixel], Rgb(1));
+            if (own_passes)
+                own_passes->volume_indirect += splatted;
+            if (own_passes && light_vertices->settings.grouped)
+                own_passes->add_groups(light_vertices->splat_groups[pixel], Rgb(1));
         }
         return result;
     }
@@ -93,6 +101,10 @@ class PathIntegrator final : public Integrator {
     }
 
   private:
+    bool is_in_picture(const CameraRay &camera) const {
+        const FilmSettings &film = scene_.film; // pixels before the first are large numbers here
+        return camera.pixel_x - film.crop_x < film.crop_width && camera.pixel_y - film.crop_y < film.crop_height;
+    }
     /// Whether camera rays start at different places, between which there may be the wall of a dielectric.
     bool rays_start_apart() const {
         return scene_.has_dielectrics && (scene_.camera.start_region().radius > 0 || scene_.moves);

@@ -21,6 +21,7 @@
 #include "sampling/dimensions.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace glimmer {
@@ -54,15 +55,27 @@ class PathSample {
 
     FilmSample run(const State &camera) {
         stack_.clear();
-        push(camera);
+        bool resampled = false;
         if constexpr (F.surfaces)
-            if (context_.plan.pixel_ris)
+            if (context_.plan.pixel_ris) {
+                resampled = true;
                 pixel_ris(camera.ray.time);
+            }
+        if (!resampled)
+            push(camera);
         WalkGuard guard(trace_);
-        while (!stack_.empty() && guard.goes_on()) {
-            State next = stack_.back();
-            stack_.pop_back();
-            follow(next);
+        for (;;) { // one call of follow(), since all of it is inlined
+            while (!stack_.empty() && guard.goes_on()) {
+                State next = stack_.back();
+                stack_.pop_back();
+                follow(next);
+            }
+            if (!resampled || !stack_.empty())
+                break;
+            resampled = false;
+            if (context_.parts)
+                swap_with(context_.parts->resampled, context_.parts->resampled_passes);
+            push(camera);
         }
         result_.unfinished = !stack_.empty();
         return result_;
@@ -427,6 +440,12 @@ class PathSample {
     /// Roulette of one more mirror or dielectric.
     bool survives_specular(State &state);
     void push(const State &state) { stack_.push_back(state); }
+    /// Exchanges all that the sample has so far for what a part of it has.
+    void swap_with(FilmSample &part, PassSample &passes) {
+        std::swap(result_, part);
+        if (F.passes && trace_.passes)
+            std::swap(*trace_.passes, passes);
+    }
 
     const PathContext context_; ///< a copy: what it refers to is one step away
     Sampler &sampler_;

@@ -22,9 +22,11 @@ void PathSample<F>::pixel_ris(ShutterTime time) {
         Interaction surface;
         Shading shading;
         Rgb beta;
+        Vec2f offset; ///< from the middle of the pixel
         float target;
     };
     std::array<Candidate, tuning::kRisCandidates> candidates;
+    const PixelFilter &filter = scene().film.filter;
     uint32_t count = 0;
     float total = 0;
     for (uint32_t i = 0; i < tuning::kRisCandidates; ++i) {
@@ -32,8 +34,10 @@ void PathSample<F>::pixel_ris(ShutterTime time) {
         const Vec2f u_pixel{(float(i % tuning::kRisStrataPerSide) + u.x) / tuning::kRisStrataPerSide,
                             (float(i / tuning::kRisStrataPerSide) + u.y) / tuning::kRisStrataPerSide};
         Candidate &candidate = candidates[count];
+        candidate.offset = context_.parts ? Vec2f{filter.sample_folded(u_pixel.x), filter.sample_folded(u_pixel.y)}
+                                          : Vec2f{filter.sample(u_pixel.x), filter.sample(u_pixel.y)};
         candidate.ray =
-            sample_camera_ray(scene(), context_.pixel_x, context_.pixel_y, u_pixel, sampler_.next_2d(), time).ray;
+            camera_ray_at(scene(), context_.pixel_x, context_.pixel_y, candidate.offset, sampler_.next_2d(), time).ray;
         const auto hit = intersect(candidate.ray, RayKind::camera);
         if (!hit || (F.visibility && scene().is_holdout(*hit)))
             continue;
@@ -62,6 +66,8 @@ void PathSample<F>::pixel_ris(ShutterTime time) {
             left -= probability;
             continue;
         }
+        if (context_.parts)
+            context_.parts->resampled_at = candidates[i].offset;
         State state;
         state.ray = candidates[i].ray;
         state.beta = candidates[i].beta * (1 / probability);

@@ -110,6 +110,11 @@ void PathSample<F>::add_emission(const State &state, const Hit &hit, const Inter
     float weight = 1;
     if (hit.instance == kNone) {
         const uint32_t light = scene().lights.of_sphere(hit.primitive);
+        if (context_.parts && state.is_camera_segment()) {
+            swap_with(context_.parts->seen, context_.parts->seen_passes);
+            add_emitted(state, emission, hit.t, medium, F.passes ? scene().passes_of(hit).light_group : uint8_t(0));
+            return swap_with(context_.parts->seen, context_.parts->seen_passes);
+        }
         weight = state.is_camera_segment() ? context_.primary_weight : emission_mis_weight(state, light, {hit.t});
         if constexpr (F.transparency && F.meets_lights())
             if (state.emission_mode != EmissionMode::skip && is_far_side(state, hit, surface))
