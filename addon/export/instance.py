@@ -21,9 +21,13 @@ from .visibility import SEEN, Visibility, visibility
 if TYPE_CHECKING:
     import bpy
 
-# (The evaluated instancer, the depsgraph) -> [(prototype object, (n, 4, 4) world matrices), ...], or None if it is none
-# of its own.
-BulkReader = Callable[["bpy.types.Object", "bpy.types.Depsgraph"], "Sequence[tuple[bpy.types.Object, Any]] | None"]
+# Of the instances by one object: the attribute of a name as a colour, (n, 4), or None where there is none of the name.
+AttributeReader = Callable[[str], "NDArray[np.float32] | None"]
+# (The evaluated instancer, the depsgraph) -> [(prototype object, (n, 4, 4) world matrices, their attributes), ...], or
+# None if it is none of its own.
+BulkReader = Callable[
+    ["bpy.types.Object", "bpy.types.Depsgraph"], "Sequence[tuple[bpy.types.Object, Any, AttributeReader]] | None"
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,12 +73,17 @@ class Placed:
     # One a member of `matrices`: the same object, or instances by the same object, at all moments.
     ids: list[Hashable] = field(default_factory=list)
     records: list[Record] = field(default_factory=list)  # of instances that Blender listed, one a matrix
+    # Of instances that were read in bulk: one a member of `matrices`, each with its instancer.
+    bulk: list[tuple[bpy.types.Object, AttributeReader]] = field(default_factory=list)
     instancer: bpy.types.Object | None = None  # the last of those that it is an instance by
     visibility: Visibility = SEEN
 
     def all_matrices(self) -> Floats:
         """(n, 4, 4). The last row is that of a matrix of places, whatever rounding made of it."""
-        result = np.concatenate([np.asarray(m, np.float64).reshape(-1, 4, 4) for m in self.matrices])
+        parts = [np.asarray(m, np.float64).reshape(-1, 4, 4) for m in self.matrices]
+        if len(parts) == 1 and self.bulk and (parts[0][:, 3] == (0.0, 0.0, 0.0, 1.0)).all():
+            return parts[0]  # of millions, which nobody changes
+        result = np.concatenate(parts)
         result[:, 3] = (0.0, 0.0, 0.0, 1.0)
         return result
 
@@ -90,18 +99,22 @@ class Placed:
         own = name_hash(self.item.name)
         ids = self.random_ids
         if ids is None:
-            count = len(self.all_matrices())
-            ids = [hash_pair(own, i) for i in range(count)]
+            count = sum(m.size // 16 for m in map(np.asarray, self.matrices))
+            return hash_pairs(own, np.arange(count)) / 0xFFFFFFFF
         return np.array(ids, np.float64) / 0xFFFFFFFF
 
 
 def dimensions_left(matrices: Floats) -> NDArray[np.intp]:
     """(n,): 3, or what a scale of 0 along some axes leaves of them."""
-    linear = matrices[:, :3, :3]
     result = np.full(len(matrices), 3)
-    flat = np.abs(np.linalg.det(linear)) <= 1e-12 * np.linalg.norm(linear, axis=1).prod(axis=1)
-    if flat.any():
-        result[flat] = np.minimum(np.linalg.matrix_rank(linear[flat]), 2)
+    for begin in range(0, len(matrices), 1 << 14):  # so much stays in a core's cache
+        linear = matrices[begin : begin + (1 << 14), :3, :3]
+        x, y, z = np.moveaxis(linear, 2, 0)
+        volume = np.abs((np.cross(x, y) * z).sum(axis=1))
+        lengths = [np.sqrt((axis * axis).sum(axis=1)) for axis in (x, y, z)]
+        flat = volume <= 1e-12 * lengths[0] * lengths[1] * lengths[2]
+        if flat.any():
+            result[begin + np.flatnonzero(flat)] = np.minimum(np.linalg.matrix_rank(linear[flat]), 2)
     return result
 
 
@@ -129,6 +142,20 @@ def hash_pair(x: int, y: int) -> int:
     return b
 
 
+def hash_pairs(x: int, y: NDArray[np.int64]) -> NDArray[np.int64]:
+    """hash_pair of x and each y."""
+    word, result = np.uint32, np.empty(len(y), np.int64)
+    for begin in range(0, len(y), 1 << 14):  # so much stays in a core's cache
+        part = y[begin : begin + (1 << 14)].astype(word)
+        start = (0xDEADBEEF + (2 << 2) + 13) & 0xFFFFFFFF
+        a, b, c = np.full_like(part, (start + x) & 0xFFFFFFFF), part + word(start), np.full_like(part, start)
+        for bits in (14, 11, 25, 16, 4, 14, 24):
+            c = (c ^ b) - (b << word(bits) | b >> word(32 - bits))
+            a, b, c = b, c, a
+        result[begin : begin + len(part)] = b
+    return result
+
+
 def placed_objects(
     depsgraph: bpy.types.Depsgraph,
     readers: tuple[BulkReader, ...],
@@ -150,11 +177,12 @@ def placed_objects(
                 plain = False
                 continue
             read_in_bulk.add(item.original.as_pointer())
-            for prototype, matrices in found:
+            for prototype, matrices, attribute in found:
                 seen = visibility(prototype, item, layer)
                 placed = bulk.setdefault((prototype.as_pointer(), seen), Placed(prototype, visibility=seen))
                 placed.matrices.append(matrices)
                 placed.ids.append(("bulk", item.original.as_pointer(), prototype.original.as_pointer()))
+                placed.bulk.append((item.original, attribute))
                 placed.instancer = item.original
         elif item.type in SHOWN_BY_OTHERS:
             plain = False

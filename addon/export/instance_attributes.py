@@ -4,9 +4,11 @@ stands on its instancer."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene.description import Attribute
 from .attributes import texture_space
@@ -31,10 +33,26 @@ def instance_attributes(placed: Placed, names: frozenset[str]) -> tuple[Attribut
     """Those of `names` that instances have, a row for each matrix."""
     found = []
     for name in sorted(names):
-        rows = _rows(placed, name)
+        rows = _bulk_rows(placed, name) if placed.bulk else _rows(placed, name)
         if rows is not None:
-            found.append(Attribute(name, "instance", np.nan_to_num(np.array(rows, np.float32))))
+            found.append(Attribute(name, "instance", np.nan_to_num(np.asarray(rows, np.float32), copy=False)))
     return tuple(found)
+
+
+def _bulk_rows(placed: Placed, name: str) -> NDArray[np.float32] | None:
+    """Of instances that were read in bulk, of which Blender says nothing."""
+    counts = [np.asarray(matrices).size // 16 for matrices in placed.matrices]
+    if not name.startswith(INSTANCER_PREFIX):
+        one = _rows(replace(placed, matrices=[np.eye(4)]), name)
+        return None if one is None else np.tile(np.array(one, np.float32), (sum(counts), 1))
+    own, parts = name[len(INSTANCER_PREFIX) :], []
+    for (instancer, attribute), count in zip(placed.bulk, counts, strict=True):
+        values = attribute(own)
+        if values is None:
+            owners = (instancer, instancer.data, placed.item, placed.item.data)
+            values = np.tile(np.array(property_of(owners, own), np.float32), (count, 1))
+        parts.append(values)
+    return np.concatenate(parts)
 
 
 def _rows(placed: Placed, name: str) -> list[tuple[float, ...]] | None:

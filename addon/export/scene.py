@@ -343,8 +343,10 @@ class _Collector:
             part = replace(part, attributes=_of_some(attributes, [i]))
             self._add_placed(part, np.eye(4)[None], randoms[[i]])
         if solid.any():
-            part = replace(self._part(placed, mesh, materials), attributes=_of_some(attributes, solid))
-            self._add_placed(part, matrices[solid], randoms[solid])
+            if not solid.all():
+                matrices, randoms, attributes = matrices[solid], randoms[solid], _of_some(attributes, solid)
+            part = replace(self._part(placed, mesh, materials), attributes=attributes)
+            self._add_placed(part, matrices, randoms)
 
     def _add_placed(self, part: Object, matrices: Floats, randoms: Floats) -> None:
         if len(matrices) > 1:

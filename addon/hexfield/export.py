@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The plates of a field in bulk: the loop over a depsgraph's instances takes 20 to 100 times as long."""
 
-from typing import Any
+import dataclasses
+import itertools
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +13,22 @@ from . import node_group
 from .field import prototypes
 from .layout import euler_to_matrix
 
+_CHUNK = 1 << 14  # plates at once, whose numbers stay in a core's cache
 
-def export_instances(evaluated_object: Any, depsgraph: Any) -> list[tuple[Any, NDArray[np.float64]]] | None:
-    """For every prototype in use: (the evaluated prototype object, its (n, 4, 4) world matrices), as
-    depsgraph.object_instances has them. None where the object is no plain field (another modifier may have changed
-    the points or the instances): then use the loop. Only valid for the object itself; where a collection that holds
-    it is instanced, those matrices come on top.
+
+class Plates(NamedTuple):
+    """The n instances of one prototype."""
+
+    prototype: Any  # the evaluated object
+    matrices: NDArray[np.float64]  # (n, 4, 4), in the world
+    # Of each instance, the attribute of a name as a colour, (n, 4); None where there is none of the name.
+    attribute: Callable[[str], NDArray[np.float32] | None]
+
+
+def export_instances(evaluated_object: Any, depsgraph: Any) -> list[Plates] | None:
+    """The plates of every prototype in use, as depsgraph.object_instances has them. None where the object is no plain
+    field (another modifier may have changed the points or the instances): then use the loop. Only valid for the object
+    itself; where a collection that holds it is instanced, those matrices come on top.
     """
     original = evaluated_object.original
     if not original.glimmer_field.enabled or original.type != "MESH" or original.data.shape_keys is not None:
@@ -32,36 +45,97 @@ def export_instances(evaluated_object: Any, depsgraph: Any) -> list[tuple[Any, N
     sources = prototypes(collection)
     if not sources:
         return None
-    matrices, index = points
-    matrices = np.array(evaluated_object.matrix_world, dtype=np.float64) @ matrices
-    index = index % len(sources)  # as the node Instance on Points takes it
+    index = points.prototypes % len(sources)  # as the node Instance on Points takes it
     order = np.argsort(index, kind="stable")
+    share = node_group.viewport_share(modifier)
+    if share < 1.0 and depsgraph.mode == "VIEWPORT":
+        own = read_attribute(original.data, node_group.RANDOM)
+        if own is None:
+            return None
+        order = order[own[order, 0] < np.float32(share)]
+    matrices = points.matrices(order, np.array(evaluated_object.matrix_world, dtype=np.float64))
     bounds = np.searchsorted(index[order], np.arange(len(sources) + 1))
     return [
-        (source.evaluated_get(depsgraph), matrices[order[begin:end]])
-        for source, begin, end in zip(sources, bounds[:-1], bounds[1:], strict=True)
+        Plates(
+            source.evaluated_get(depsgraph),
+            matrices[begin:end],
+            _attribute_of_some(original.data, order[begin:end]),
+        )
+        for source, (begin, end) in zip(sources, itertools.pairwise(bounds), strict=True)
         if end > begin
     ]
 
 
-def read_points(mesh: Any) -> tuple[NDArray[np.float64], NDArray[np.int32]] | None:
-    """The (n, 4, 4) matrices of the plates in the field's own space and their (n) prototypes; None if the mesh has
-    lost its attributes.
-    """
+def _attribute_of_some(mesh: Any, part: NDArray[Any]) -> Callable[[str], NDArray[np.float32] | None]:
+    def attribute(name: str) -> NDArray[np.float32] | None:
+        values = read_attribute(mesh, name)
+        return None if values is None else values[part]
+
+    return attribute
+
+
+# How Blender makes a colour of an attribute: of its member, that many numbers.
+_MEMBERS = {
+    "FLOAT": ("value", 1),
+    "INT": ("value", 1),
+    "BOOLEAN": ("value", 1),
+    "FLOAT_VECTOR": ("vector", 3),
+    "FLOAT_COLOR": ("color", 4),
+}
+
+
+def read_attribute(mesh: Any, name: str) -> NDArray[np.float32] | None:
+    """(n, 4): an attribute of the points, as a colour; instances take it over."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.domain != "POINT" or attribute.data_type not in _MEMBERS:
+        return None
+    member, width = _MEMBERS[attribute.data_type]
+    n = len(attribute.data)
+    raw = np.empty(width * n, {"INT": np.int32, "BOOLEAN": bool}.get(attribute.data_type, np.float32))
+    attribute.data.foreach_get(member, raw)
+    values = np.ones((n, 4), np.float32)
+    values[:, : max(width, 3)] = raw.reshape(n, width)
+    return values
+
+
+@dataclasses.dataclass(frozen=True)
+class Points:
+    """The plates in the field's own space, as its mesh holds them: float32, n of each."""
+
+    positions: NDArray[np.float32]  # (n, 3)
+    rotations: NDArray[np.float32]  # (n, 3)
+    scales: NDArray[np.float32]  # (n, 3)
+    prototypes: NDArray[np.int32]
+
+    def matrices(self, order: NDArray[Any], world: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(k, 4, 4): where those plates stand in the world, in that order."""
+        result = np.empty((len(order), 4, 4))
+        result[:, 3] = (0.0, 0.0, 0.0, 1.0)
+        is_moved = not np.array_equal(world, np.eye(4))
+        for begin in range(0, len(order), _CHUNK):
+            part = order[begin : begin + _CHUNK]
+            linear = euler_to_matrix(self.rotations[part].astype(np.float64))
+            linear *= self.scales[part].astype(np.float64)[:, np.newaxis, :]
+            positions = self.positions[part].astype(np.float64)
+            if is_moved:
+                linear = world[:3, :3] @ linear
+                positions = positions @ world[:3, :3].T + world[:3, 3]
+            result[begin : begin + len(part), :3, :3] = linear
+            result[begin : begin + len(part), :3, 3] = positions
+        return result
+
+
+def read_points(mesh: Any) -> Points | None:
+    """None if the mesh has lost its attributes."""
     n = len(mesh.vertices)
     attributes = [mesh.attributes.get(name) for name in (node_group.ROTATION, node_group.SCALE, node_group.PROTOTYPE)]
     if any(attribute is None or len(attribute.data) != n for attribute in attributes):
         return None
     rotation, scale, prototype = attributes
-    position_values, rotation_values, scale_values = (np.empty(3 * n, np.float32) for _ in range(3))
+    positions, rotations, scales = (np.empty(3 * n, np.float32) for _ in range(3))
     index = np.empty(n, np.int32)
-    mesh.vertices.foreach_get("co", position_values)
-    rotation.data.foreach_get("vector", rotation_values)
-    scale.data.foreach_get("vector", scale_values)
+    mesh.vertices.foreach_get("co", positions)
+    rotation.data.foreach_get("vector", rotations)
+    scale.data.foreach_get("vector", scales)
     prototype.data.foreach_get("value", index)
-    matrices = np.zeros((n, 4, 4))
-    matrices[:, :3, :3] = euler_to_matrix(rotation_values.reshape(n, 3).astype(np.float64))
-    matrices[:, :3, :3] *= scale_values.reshape(n, 1, 3)
-    matrices[:, :3, 3] = position_values.reshape(n, 3)
-    matrices[:, 3, 3] = 1
-    return matrices, index
+    return Points(positions.reshape(n, 3), rotations.reshape(n, 3), scales.reshape(n, 3), index)

@@ -15,11 +15,17 @@ from numpy.typing import NDArray
 
 from . import node_group, properties, slots
 from .layout import FieldLayout, check, lay_out
+from .look import look_of
 from .naming import natural_key
 from .parameters import FieldParameters, Part
-from .plate import make_plate
+from .plate import Kind, kinds, make_plate, prototype_count
+from .standing import Viewer, ground_of, viewer_of
 
-_LAYOUT_KEY, _PLATES_KEY = "glimmer_layout", "glimmer_plates"
+_LAYOUT_KEY, _PLATES_KEY, _LOOK_KEY, _VIEWER_KEY = "glimmer_layout", "glimmer_plates", "glimmer_look", "glimmer_viewer"
+_VARIANT = "glimmer_variant"  # the prototypes of a field before plates that are far away were simplified
+_KEPT = 300_000  # the layout of a field of so many plates is kept for the next change of its colours
+
+_last_layout: list[tuple[str, FieldLayout]] = []
 
 
 def create(
@@ -42,15 +48,49 @@ def create(
     return obj
 
 
-def rebuild(obj: Any, parameters: FieldParameters) -> None:
+def rebuild(obj: Any, parameters: FieldParameters, depsgraph: Any = None) -> None:
     """Brings a field's data up to date with `parameters`, as far as they changed. Raises ValueError for parameters
-    that are impossible together, and leaves the data as it was.
+    that are impossible together, and leaves the data as it was. depsgraph: the context's without one.
     """
     if obj.type != "MESH" or obj.library is not None or obj.data.library is not None or obj.data.is_editmode:
         return
-    _rebuild_points(obj, parameters)
+    _rebuild_points(obj, parameters, depsgraph)
     slots.follow_pointers(obj)
     _rebuild_plates(obj, parameters)
+    simplify(obj, parameters, depsgraph)
+    node_group.set_viewport_share(node_group.find_modifier(obj), parameters.viewport_share)
+
+
+def simplify(obj: Any, parameters: FieldParameters, depsgraph: Any = None) -> None:
+    """Gives the plates that the scene's camera sees small the plain prototypes, and all others theirs."""
+    viewer = viewer_of(obj, depsgraph) if parameters.simplify else None
+    key = repr((viewer, parameters.simplify_pixels)) if viewer is not None else ""
+    if obj.data.get(_VIEWER_KEY, "") == key or (variants := _read_variants(obj.data)) is None:
+        return
+    if viewer is not None:
+        variants = _simplified(obj.data, variants, parameters, viewer)
+    _set_attribute(obj.data, node_group.PROTOTYPE, "INT", "value", variants)
+    obj.data[_VIEWER_KEY] = key
+    obj.update_tag()
+
+
+def _read_variants(mesh: Any) -> NDArray[np.int32] | None:
+    attribute = mesh.attributes.get(_VARIANT)
+    if attribute is None:
+        return None
+    found = np.empty(len(attribute.data), np.int32)
+    attribute.data.foreach_get("value", found)
+    return found
+
+
+def _simplified(
+    mesh: Any, variants: NDArray[np.int32], parameters: FieldParameters, viewer: Viewer
+) -> NDArray[np.int32]:
+    points = np.empty(3 * len(variants), np.float32)
+    mesh.vertices.foreach_get("co", points)
+    small = viewer.pixels(points.reshape(-1, 3), 2.0 * parameters.plate_radius) < parameters.simplify_pixels
+    plain = kinds(parameters).index(Kind.SIMPLE) * parameters.prototypes
+    return np.where(small, plain + variants % parameters.prototypes, variants).astype(np.int32)
 
 
 def prototypes(collection: Any) -> list[Any]:
@@ -68,26 +108,48 @@ def sweep() -> None:
                 _remove_prototype(obj)
 
 
-def _rebuild_points(obj: Any, parameters: FieldParameters) -> None:
-    key = parameters.key(Part.LAYOUT)
-    if obj.data.get(_LAYOUT_KEY) == key:
+def _rebuild_points(obj: Any, parameters: FieldParameters, depsgraph: Any) -> None:
+    ground, ground_key = ground_of(obj, depsgraph)
+    key = parameters.key(Part.LAYOUT) + ground_key
+    look_key = parameters.key(Part.LOOK) + key
+    if obj.data.get(_LAYOUT_KEY) == key and obj.data.get(_LOOK_KEY) == look_key:
         return
-    layout = lay_out(parameters)
+    layout = next((layout for kept_key, layout in _last_layout if kept_key == key), None) or lay_out(parameters, ground)
+    _last_layout[:] = [(key, layout)] if len(layout) <= _KEPT else []
     if obj.data.users > 1:  # a linked duplicate, whose parameters are its own
         obj.data = bpy.data.meshes.new(obj.data.name)
-    _fill_points(obj.data, layout)
-    obj.data[_LAYOUT_KEY] = key
+    if obj.data.get(_LAYOUT_KEY) != key:
+        _fill_points(obj.data, layout, parameters.simplify)
+        obj.data[_LAYOUT_KEY] = key
+        obj.data[_VIEWER_KEY] = ""
+    _fill_look(obj.data, layout, parameters)
+    obj.data[_LOOK_KEY] = look_key
+    obj.data.update()
     obj.update_tag()
 
 
-def _fill_points(mesh: Any, layout: FieldLayout) -> None:
+def _fill_points(mesh: Any, layout: FieldLayout, keeps_variants: bool) -> None:
     mesh.clear_geometry()
     mesh.vertices.add(len(layout))
     mesh.vertices.foreach_set("co", layout.positions.astype(np.float32).ravel())
     for name, values in ((node_group.ROTATION, layout.rotations), (node_group.SCALE, layout.scales)):
         _set_attribute(mesh, name, "FLOAT_VECTOR", "vector", values.astype(np.float32))
     _set_attribute(mesh, node_group.PROTOTYPE, "INT", "value", layout.prototypes)
-    mesh.update()
+    for name, numbers in ((node_group.RANDOM, layout.randoms), (node_group.RING, layout.rings)):
+        _set_attribute(mesh, name, "FLOAT", "value", numbers.astype(np.float32))
+    if keeps_variants:
+        _set_attribute(mesh, _VARIANT, "INT", "value", layout.prototypes)
+    elif _VARIANT in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[_VARIANT])
+
+
+def _fill_look(mesh: Any, layout: FieldLayout, parameters: FieldParameters) -> None:
+    look = look_of(layout, parameters)
+    colors = np.ones((len(layout), 4), np.float32)
+    colors[:, :3] = look.colors
+    _set_attribute(mesh, node_group.COLOR, "FLOAT_COLOR", "color", colors)
+    for name, numbers in ((node_group.ROUGHNESS, look.roughnesses), (node_group.PATINA, look.patinas)):
+        _set_attribute(mesh, name, "FLOAT", "value", numbers.astype(np.float32))
 
 
 def _set_attribute(mesh: Any, name: str, kind: str, member: str, values: NDArray[Any]) -> None:
@@ -125,9 +187,10 @@ def _is_made_of(collection: Any, key: str, materials: list[Any]) -> bool:
 
 def _fill_plates(collection: Any, parameters: FieldParameters, materials: list[Any]) -> None:
     existing = prototypes(collection)
-    for obj in existing[parameters.prototypes :]:
+    count = prototype_count(parameters)
+    for obj in existing[count:]:
         _remove_prototype(obj)
-    for index in range(parameters.prototypes):
+    for index in range(count):
         if index < len(existing):
             obj = existing[index]
         else:

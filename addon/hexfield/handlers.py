@@ -21,25 +21,50 @@ _log = logging.getLogger(__name__)
 @persistent  # type: ignore[untyped-decorator]
 def on_frame_change(scene: Any, depsgraph: Any = None) -> None:
     for obj in scene.objects:
-        if obj.type != "MESH" or obj.animation_data is None or not obj.glimmer_field.enabled:
+        if obj.type != "MESH" or not obj.glimmer_field.enabled:
             continue
-        # The animated values are those of the evaluated object: in a render the original keeps the old ones.
-        source = obj if depsgraph is None else obj.evaluated_get(depsgraph)
-        try:
-            field.rebuild(obj, properties.read(source.glimmer_field))
-        except ValueError as error:
-            _log.warning("%s: %s; the field stays as it was", obj.name, error)
+        own = obj.glimmer_field
+        if obj.animation_data is not None:
+            # The animated values are those of the evaluated object: in a render the original keeps the old ones.
+            _rebuild(obj, obj if depsgraph is None else obj.evaluated_get(depsgraph), depsgraph)
+        elif own.ground is not None:
+            _rebuild(obj, obj, depsgraph)
+        elif own.simplify and slots.is_writable(obj):
+            field.simplify(obj, properties.read(own), depsgraph)
+
+
+def _rebuild(obj: Any, source: Any, depsgraph: Any) -> None:
+    try:
+        field.rebuild(obj, properties.read(source.glimmer_field), depsgraph)
+    except ValueError as error:
+        _log.warning("%s: %s; the field stays as it was", obj.name, error)
 
 
 @persistent  # type: ignore[untyped-decorator]
-def on_update(_scene: Any, depsgraph: Any) -> None:
+def on_update(scene: Any, depsgraph: Any) -> None:
     if bpy.app.is_job_running("RENDER"):
         return
+    changed = set()
     for update in depsgraph.updates:
         if isinstance(update.id, bpy.types.Object):
             obj = update.id.original
+            changed.add(obj)
             if obj.glimmer_field.enabled and slots.is_writable(obj):
                 slots.lead_pointers(obj)
+    if changed:
+        _follow(scene, changed, depsgraph)
+
+
+def _follow(scene: Any, changed: set[Any], depsgraph: Any) -> None:
+    """Fields stand on what was moved or edited, and are as fine as the camera sees them."""
+    for obj in scene.objects:
+        if obj.type != "MESH" or not obj.glimmer_field.enabled or not slots.is_writable(obj):
+            continue
+        own = obj.glimmer_field
+        if own.ground is not None and (own.ground in changed or obj in changed):
+            _rebuild(obj, obj, depsgraph)
+        elif own.simplify and (scene.camera in changed or obj in changed):
+            field.simplify(obj, properties.read(own), depsgraph)
 
 
 @persistent  # type: ignore[untyped-decorator]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node group that puts plates on the points of a field: one for all fields of a file."""
+"""The node groups that put plates on the points of a field: one for all fields of a file, and one for all of whose
+plates the viewport shows a share.
+"""
 
 from typing import Any
 
@@ -7,19 +9,24 @@ import bpy
 
 NAME = "Glimmer Hexagon Field"
 _MARK = "glimmer_hexagon_field"
-_VERSION = 1
+_WHOLE, _THINNED = 1, 2  # what the mark holds
 
 ROTATION, SCALE, PROTOTYPE = "glimmer_rotation", "glimmer_scale", "glimmer_prototype"
+# What shaders ask for with the node Attribute, of the type Instancer. Instances take over their points' attributes.
+COLOR, ROUGHNESS, RANDOM, RING, PATINA = (
+    f"glimmer_{name}" for name in ("color", "roughness", "random", "ring", "patina")
+)
 
 
-def ensure() -> Any:
-    """The file's own group, made when it has none."""
+def ensure(is_thinned: bool = False) -> Any:
+    """The file's own group, made when it has none. is_thinned: it has an input for the viewport's share of plates."""
+    version = _THINNED if is_thinned else _WHOLE
     for group in bpy.data.node_groups:
-        if group.library is None and group.get(_MARK) == _VERSION:
+        if group.library is None and group.get(_MARK) == version:
             return group
-    group = bpy.data.node_groups.new(NAME, "GeometryNodeTree")
-    group[_MARK] = _VERSION
-    _build(group)
+    group = bpy.data.node_groups.new(f"{NAME} Preview" if is_thinned else NAME, "GeometryNodeTree")
+    group[_MARK] = version
+    _build(group, is_thinned)
     return group
 
 
@@ -43,25 +50,53 @@ def find_modifier(obj: Any) -> Any:
 
 
 def plates(modifier: Any) -> Any:
-    """The collection of prototypes that a modifier of this group is given, or None."""
-    identifier = _plates_socket(modifier.node_group)
+    """The collection of prototypes that a modifier of these groups is given, or None."""
+    return _value(modifier, "Plates")
+
+
+def set_plates(modifier: Any, collection: Any) -> None:
+    _set_value(modifier, "Plates", collection)
+
+
+def viewport_share(modifier: Any) -> float:
+    """Plates whose random number is not less than this are not in the viewport."""
+    return float(_value(modifier, _SHARE)) if modifier.node_group[_MARK] == _THINNED else 1.0
+
+
+def set_viewport_share(modifier: Any, share: float) -> None:
+    if share == viewport_share(modifier):
+        return
+    is_thinned = share < 1.0
+    if is_thinned != (modifier.node_group[_MARK] == _THINNED):
+        collection = plates(modifier)
+        modifier.node_group = ensure(is_thinned)
+        set_plates(modifier, collection)
+    if is_thinned:
+        _set_value(modifier, _SHARE, share)
+
+
+_SHARE = "Viewport Share"
+
+
+def _value(modifier: Any, name: str) -> Any:
+    identifier = _socket(modifier.node_group, name)
     if hasattr(modifier, "properties"):  # 5.2
         return getattr(modifier.properties.inputs, identifier).value
     return modifier.get(identifier)
 
 
-def set_plates(modifier: Any, collection: Any) -> None:
-    identifier = _plates_socket(modifier.node_group)
+def _set_value(modifier: Any, name: str, value: Any) -> None:
+    identifier = _socket(modifier.node_group, name)
     if hasattr(modifier, "properties"):  # 5.2
-        getattr(modifier.properties.inputs, identifier).value = collection
+        getattr(modifier.properties.inputs, identifier).value = value
     else:
-        modifier[identifier] = collection
+        modifier[identifier] = value
 
 
-def _plates_socket(group: Any) -> str:
+def _socket(group: Any, name: str) -> str:
     """The name under which a modifier of this group holds its inputs: an ID property before 5.2."""
     sockets = group.interface.items_tree if hasattr(group, "interface") else group.inputs
-    return str(next(socket.identifier for socket in sockets if socket.name == "Plates"))
+    return str(next(socket.identifier for socket in sockets if socket.name == name))
 
 
 def _add_sockets(group: Any, *inputs: tuple[str, str]) -> None:
@@ -77,8 +112,8 @@ def _add_sockets(group: Any, *inputs: tuple[str, str]) -> None:
         group.outputs.new("NodeSocketGeometry", "Geometry")
 
 
-def _build(group: Any) -> None:
-    _add_sockets(group, ("NodeSocketCollection", "Plates"))
+def _build(group: Any, is_thinned: bool) -> None:
+    _add_sockets(group, ("NodeSocketCollection", "Plates"), *([("NodeSocketFloat", _SHARE)] if is_thinned else []))
     group_input = _node(group, "NodeGroupInput", 0, 0)
     group_output = _node(group, "NodeGroupOutput", 600, 0)
     plates = _node(group, "GeometryNodeCollectionInfo", 150, -150)
@@ -94,6 +129,18 @@ def _build(group: Any) -> None:
     link(_attribute(group, ROTATION, "FLOAT_VECTOR", -500), scatter.inputs["Rotation"])
     link(_attribute(group, SCALE, "FLOAT_VECTOR", -650), scatter.inputs["Scale"])
     link(scatter.outputs["Instances"], group_output.inputs["Geometry"])
+    if is_thinned:
+        less, final = _node(group, "FunctionNodeCompare", 150, 150), _node(group, "GeometryNodeIsViewport", 150, 300)
+        less.data_type, less.operation = "FLOAT", "LESS_THAN"
+        own, share = (socket for socket in less.inputs if socket.enabled and socket.name in "AB")
+        link(_attribute(group, RANDOM, "FLOAT", 150), own)
+        link(group_input.outputs[_SHARE], share)
+        # In the viewport what is less, in a render all.
+        either = _node(group, "FunctionNodeBooleanMath", 300, 200)
+        either.operation = "IMPLY"
+        link(final.outputs[0], either.inputs[0])
+        link(less.outputs[0], either.inputs[1])
+        link(either.outputs[0], scatter.inputs["Selection"])
 
 
 def _attribute(group: Any, name: str, data_type: str, y: float) -> Any:

@@ -7,6 +7,7 @@ import bpy
 
 from . import field, node_group, properties
 from .layout import check
+from .materials import default_materials
 from .panel import draw_parameters
 from .parameters import SECTIONS
 
@@ -46,27 +47,6 @@ class GLIMMER_OT_add_hexagon_field(bpy.types.Operator):
 
 
 GLIMMER_OT_add_hexagon_field.__annotations__ = properties.field_annotations()
-
-
-def default_materials() -> tuple[Any, Any]:
-    """Brushed plates with polished bevels: the file's own of those names, or new ones."""
-    return (
-        bpy.data.materials.get("Glimmer Plate") or metal("Glimmer Plate", (0.55, 0.56, 0.6), 0.45),
-        bpy.data.materials.get("Glimmer Bevel") or metal("Glimmer Bevel", (0.7, 0.7, 0.72), 0.25),
-    )
-
-
-def metal(name: str, color: tuple[float, float, float], roughness: float) -> Any:
-    material = bpy.data.materials.new(name)
-    if bpy.app.version < (5, 0):  # from then on always
-        material.use_nodes = True
-    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    shader.inputs["Base Color"].default_value = (*color, 1.0)
-    shader.inputs["Metallic"].default_value = 1.0
-    shader.inputs["Roughness"].default_value = roughness
-    material.diffuse_color = (*color, 1.0)
-    material.metallic, material.roughness = 1.0, roughness
-    return material
 
 
 class GLIMMER_OT_make_plates_real(bpy.types.Operator):

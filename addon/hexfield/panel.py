@@ -10,14 +10,16 @@ from . import properties
 from .layout import check
 from .parameters import SECTIONS, controls
 
-_HIDDEN_UNLESS_EXTENT = {"rings": "RINGS", "radius": "RADIUS"}
+_OPEN = ("Extent", "Plates", "Hills", "Mutation")  # the other sections' panels are closed at first
 
 
 def draw_parameters(layout: Any, group: Any, section: str) -> None:
     """The parameters of one section; `group` holds them, a field's properties or the operator."""
     column = layout.column()
     for name, control in controls():
-        if control.section == section and _HIDDEN_UNLESS_EXTENT.get(name, group.extent) == group.extent:
+        if control.section == section and (
+            control.needs is None or getattr(group, control.needs[0]) == control.needs[1]
+        ):
             column.prop(group, name, slider=0 < control.maximum <= 1)
 
 
@@ -52,7 +54,11 @@ def _draw_field(self: Any, context: Any) -> None:
 def _draw_section(section: str) -> Callable[[Any, Any], None]:
     def draw(self: Any, context: Any) -> None:
         self.layout.use_property_split = True
-        draw_parameters(self.layout, context.object.glimmer_field, section)
+        group = context.object.glimmer_field
+        if section == "Ground":
+            self.layout.prop(group, "ground")
+            self.layout.prop(group, "height_image")
+        draw_parameters(self.layout, group, section)
 
     return draw
 
@@ -78,7 +84,13 @@ def _panels(name: str, place: dict[str, Any]) -> list[type]:
         type(
             f"{name}_{section.lower()}",
             (bpy.types.Panel,),
-            {**common, "bl_label": section, "bl_parent_id": name, "draw": _draw_section(section)},
+            {
+                **common,
+                "bl_label": section,
+                "bl_parent_id": name,
+                "bl_options": set() if section in _OPEN else {"DEFAULT_CLOSED"},
+                "draw": _draw_section(section),
+            },
         )
         for section in SECTIONS
     ]

@@ -17,7 +17,9 @@ def read(group: Any) -> FieldParameters:
     values = {}
     for name, control in controls():
         value = getattr(group, name)
-        numeric = not control.choices and not isinstance(value, bool)
+        if not isinstance(value, (str, bool, int, float)):
+            value = tuple(value)
+        numeric = not control.choices and not isinstance(value, (bool, tuple))
         values[name] = value if not numeric else min(max(value, control.minimum), control.maximum)
     return FieldParameters(**values)
 
@@ -51,6 +53,8 @@ def blender_property(name: str, control: Control, default: Any, update: Any = No
         return bpy.props.EnumProperty(items=control.choices, **common)
     if isinstance(default, bool):
         return bpy.props.BoolProperty(**common)
+    if isinstance(default, tuple):
+        return bpy.props.FloatVectorProperty(**common, subtype="COLOR", size=3, min=0.0, max=1.0)
     number = type(default)
     limits: dict[str, Any] = {"min": number(control.minimum)}
     if control.maximum < math.inf:
@@ -60,7 +64,8 @@ def blender_property(name: str, control: Control, default: Any, update: Any = No
     if number is int:
         return bpy.props.IntProperty(**common, **limits)
     precision = 3 if control.unit != "ROTATION" else 1
-    return bpy.props.FloatProperty(**common, **limits, unit=control.unit, precision=precision)
+    kind = {"subtype": "PIXEL"} if control.unit == "PIXEL" else {"unit": control.unit}
+    return bpy.props.FloatProperty(**common, **limits, **kind, precision=precision)
 
 
 def field_annotations(update: Any = None) -> dict[str, Any]:
@@ -77,6 +82,20 @@ _OWN_ANNOTATIONS = {
     ),
     "bevel_material": bpy.props.PointerProperty(
         type=bpy.types.Material, name="Bevels", description="Of the rounded edges", update=_changed
+    ),
+    "ground": bpy.props.PointerProperty(
+        type=bpy.types.Object,
+        name="Ground",
+        description="A mesh that plates stand on, as seen from above, or are scattered over; where it is not, no plate"
+        " stands",
+        poll=of_group_and(lambda _group, obj: obj.type == "MESH" and not obj.glimmer_field.enabled),
+        update=_changed,
+    ),
+    "height_image": bpy.props.PointerProperty(
+        type=bpy.types.Image,
+        name="Height Image",
+        description="Heights that hills stand on: the red of its pixels",
+        update=_changed,
     ),
 }
 

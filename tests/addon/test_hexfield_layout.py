@@ -193,7 +193,7 @@ def test_hundred_thousand_plates_in_well_under_a_second() -> None:
         ({"extent": "DISC"}, "hexagon field: extent is 'DISC'; allowed: RINGS, RADIUS"),
         (
             {"extent": "RADIUS", "radius": 1e6},
-            "hexagon field: radius is 1e+06; allowed with plates of this size: 0 to 775.981",
+            "hexagon field: radius is 1e+06; allowed with plates of this size: 0 to 1862.35",
         ),
     ],
 )
@@ -218,10 +218,12 @@ def test_keys_tell_what_has_to_be_made_anew() -> None:
             other: object = next(choice[0] for choice in control.choices if choice[0] != value)
         elif isinstance(value, bool):
             other = not value
+        elif isinstance(value, tuple):
+            other = (0.1, *value[1:])
         else:
-            other = type(value)(value + 1) if value + 1 <= control.maximum else control.maximum / 2
+            other = type(value)(value + 1) if value + 1 <= control.maximum else control.maximum / 3
         changed = FieldParameters(**{name: other})  # type: ignore[arg-type]
-        for part in (Part.LAYOUT, Part.PLATES):
+        for part in (Part.LAYOUT, Part.PLATES, Part.LOOK, Part.DISPLAY):
             assert (changed.key(part) != base.key(part)) == bool(control.part & part), name
 
 

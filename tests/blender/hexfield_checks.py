@@ -59,7 +59,7 @@ def loop_instances(obj: Any, depsgraph: Any) -> dict[str, Any]:
 def assert_export_is_the_loop(obj: Any) -> int:
     """Returns the number of plates. float32 matrices of Blender: 1e-6 of the largest number in them."""
     source, depsgraph = evaluated(obj)
-    exported = {prototype.original.name: matrices for prototype, matrices in export_instances(source, depsgraph)}
+    exported = {prototype.original.name: matrices for prototype, matrices, _ in export_instances(source, depsgraph)}
     looped = loop_instances(obj, depsgraph)
     assert set(exported) == set(looped), (sorted(exported), sorted(looped))
     for name, matrices in looped.items():
@@ -145,30 +145,192 @@ def shapes(obj: Any) -> list[Any]:
     return [([tuple(v.co) for v in mesh.vertices], [p.use_smooth for p in mesh.polygons]) for mesh in meshes]
 
 
+def attributes_of(obj: Any) -> Any:
+    """What shaders know of the plates."""
+    read = load("hexfield.export").read_attribute
+    names = (node_group.COLOR, node_group.ROUGHNESS, node_group.PATINA)
+    return np.concatenate([read(obj.data, name) for name in names], axis=1)
+
+
 def every_parameter_is_live() -> None:
-    """Changing a property changes what the field shows: points, plates or both, as the table says."""
+    """Changing a property changes what the field shows: points, plates, their look or none of these, as the table
+    says. Each is tried where it does something.
+    """
     parameters = load("hexfield.parameters")
-    extent_of = {"radius": "RADIUS"}
+    needed: dict[str, dict[str, Any]] = {
+        "radius": {"extent": "RADIUS"},
+        "sector_direction": {"sector": 1.0},
+        "sunken_depth": {"sunken": 0.5},
+        "crack_width": {"cracked": 0.5},
+        "terrace_flatness": {"terrace_height": 0.5},
+        "crater_radius": {"crater_density": 1.0},
+        "crater_depth": {"crater_density": 1.0},
+        **{f"path_{name}": {"path_width": 3.0} for name in ("depth", "bend", "length")},
+        **{f"second_{name}": {"second_weight": 0.5} for name in ("color", "roughness")},
+        **{f"third_{name}": {"third_weight": 0.5} for name in ("color", "roughness")},
+        **{f"patina_{name}": {"patina": 0.5} for name in ("color", "roughness", "height", "slope", "noise", "length")},
+    }
+    without_a_mark = {"image_size", "image_height", "simplify_pixels"}  # they need an image, or a camera
     for name, control in parameters.controls():
-        obj = new_field(mutation_shape=0.1, mutation_bevel=0.1, extent=extent_of.get(name, "RINGS"))
+        if name in without_a_mark:
+            continue
+        own = needed.get(name, {})
+        if control.needs is not None:
+            own = {control.needs[0]: control.needs[1], **own}
+        obj = new_field(**({"mutation_shape": 0.1, "mutation_bevel": 0.1} | own))
         group = obj.glimmer_field
-        before = [matrices.copy() for _, matrices in export_instances(*evaluated(obj))]
-        plates = shapes(obj)
+        before = [matrices.copy() for _, matrices, _ in export_instances(*evaluated(obj))]
+        plates, look = shapes(obj), attributes_of(obj)
+        value = getattr(group, name)
         if control.choices:
-            setattr(group, name, "RADIUS")
-        elif isinstance(getattr(group, name), bool):
-            setattr(group, name, not getattr(group, name))
-        elif isinstance(getattr(group, name), int):
-            setattr(group, name, getattr(group, name) + 1)
+            setattr(group, name, control.choices[1][0])
+        elif isinstance(value, bool):
+            setattr(group, name, not value)
+        elif isinstance(value, int):
+            setattr(group, name, value + 1)
+        elif not isinstance(value, float):
+            setattr(group, name, [0.5 * part for part in value])
         else:
-            setattr(group, name, 0.6 * getattr(group, name) + 0.1)
-        after = [matrices for _, matrices in export_instances(*evaluated(obj))]
+            setattr(group, name, 0.6 * value + (0.11 if name != "planet_radius" else 100.0))
+        after = [matrices for _, matrices, _ in export_instances(*evaluated(obj))]
         new_plates = shapes(obj)
         same_layout = len(before) == len(after) and all(map(np.array_equal, before, after))
         same_plates = plates == new_plates
-        # A clearing of 0.1 takes the plate in the middle.
-        assert same_layout != bool(control.part & parameters.Part.LAYOUT), name
+        # A clearing of 0.1 takes the plate in the middle. Plates that are simplified stand where they stood.
+        moves = bool(control.part & (parameters.Part.LAYOUT | parameters.Part.DISPLAY))
+        assert same_layout != moves or name == "simplify", name
         assert same_plates != bool(control.part & parameters.Part.PLATES), name
+        if not control.part & parameters.Part.LAYOUT:
+            assert np.array_equal(look, attributes_of(obj)) != bool(control.part & parameters.Part.LOOK), name
+
+
+def attributes_are_of_the_plates() -> None:
+    """What is handed out with the matrices belongs to them: a plate's colour is its own metal's, wherever it comes."""
+    obj = new_field(rings=6, cracked=0.3, second_weight=1.0, roughness_spread=0.0, second_color=(0.1, 0.2, 0.3))
+    layout = layout_of(FieldParameters(rings=6, cracked=0.3, mutation_turn=0.3, mutation_size=0.2))
+    by_place = {tuple(p): r for p, r in zip(layout.positions.round(3).tolist(), layout.randoms.tolist(), strict=True)}
+    seen = 0
+    for _, matrices, attribute in export_instances(*evaluated(obj)):
+        random, color = attribute(node_group.RANDOM), attribute(node_group.COLOR)
+        assert attribute("nothing") is None
+        assert random.shape == color.shape == (len(matrices), 4)
+        assert set(color[:, 0].astype(np.float64).round(3).tolist()) <= {0.56, 0.1}
+        for place, number in zip(matrices[:, :3, 3].round(3).tolist(), random[:, 0].tolist(), strict=True):
+            near = min(by_place, key=lambda other: sum((a - b) ** 2 for a, b in zip(place, other, strict=True)))
+            assert math.isclose(by_place[near], number, rel_tol=1e-6)
+            seen += 1
+    assert seen == 127
+
+
+def the_viewport_shows_a_share() -> None:
+    obj = new_field(rings=20)
+    group = obj.glimmer_field
+    assert assert_export_is_the_loop(obj) == 1261
+    group.viewport_share = 0.25
+    count = assert_export_is_the_loop(obj)
+    assert abs(count - 315) < 5 * math.sqrt(1261 * 0.25 * 0.75), count
+    seen: list[int] = []
+
+    class Counter(bpy.types.RenderEngine):
+        bl_idname, bl_label = "GLIMMER_COUNTER", "Counter"
+
+        def update(self, _data: Any, depsgraph: Any) -> None:
+            source = obj.evaluated_get(depsgraph)
+            seen.append(sum(len(matrices) for _, matrices, _ in export_instances(source, depsgraph)))
+            seen.append(sum(instance.is_instance for instance in depsgraph.object_instances))
+
+        def render(self, _depsgraph: Any) -> None:
+            self.end_result(self.begin_result(0, 0, 8, 8))
+
+    scene = bpy.context.scene
+    scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(scene.camera)
+    scene.render.resolution_x = scene.render.resolution_y = 8
+    bpy.utils.register_class(Counter)
+    try:
+        scene.render.engine = Counter.bl_idname
+        bpy.ops.render.render()
+    finally:
+        scene.render.engine = "CYCLES"
+        bpy.utils.unregister_class(Counter)
+    assert seen == [1261, 1261], seen
+    group.viewport_share = 1.0
+    assert assert_export_is_the_loop(obj) == 1261
+    assert plates_of(obj) is not None
+
+
+def far_plates_are_simple() -> None:
+    """Those and only those that the camera sees small, and again when it moves."""
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x, scene.render.resolution_percentage = 500, 100
+    camera.data.sensor_fit, camera.data.angle = "HORIZONTAL", math.radians(90.0)
+    camera.location = (0.0, -30.0, 2.0)
+    bpy.context.view_layer.update()
+    obj = new_field(rings=20, simplify=True, simplify_pixels=20.0, prototypes=4, bevel_segments=4)
+    prototypes = field.prototypes(plates_of(obj))
+    assert [len(p.data.polygons) > 40 for p in prototypes] == [True] * 4 + [False] * 4
+    for place in ((0.0, -30.0, 2.0), (10.0, 20.0, 5.0)):
+        camera.location = place
+        bpy.context.view_layer.update()
+        found = {}
+        for prototype, matrices, _ in export_instances(*evaluated(obj)):
+            pixels = 2.0 * 250.0 / np.linalg.norm(matrices[:, :3, 3] - place, axis=1)
+            is_simple = prototype.original in prototypes[4:]
+            assert (pixels < 20.001).all() if is_simple else (pixels > 19.999).all()
+            found[is_simple] = True
+        assert set(found) == {True, False}
+    obj.glimmer_field.simplify = False
+    assert len(field.prototypes(plates_of(obj))) == 4
+    assert assert_export_is_the_loop(obj) == 1261
+
+
+def plates_stand_on_what_is_there() -> None:
+    """On a mesh wherever it is moved, scattered over it, and on an image's pixels; without pixels it says so."""
+    mesh = bpy.data.meshes.new("Slope")
+    mesh.from_pydata([(-50, -50, 0), (50, -50, 0), (50, 50, 40), (-50, 50, 40)], [], [(0, 1, 2, 3)])
+    slope = bpy.data.objects.new("Slope", mesh)
+    bpy.context.scene.collection.objects.link(slope)
+    flat = dict.fromkeys(("hill_height", "mutation_height", "mutation_tilt", "mutation_turn"), 0.0)
+    obj = new_field(rings=6, hill_follow=1.0, **flat)
+    obj.glimmer_field.ground = slope
+    _, y, z = points_of(obj).T
+    assert np.abs(z - 0.4 * (y + 50)).max() < 1e-4
+    for _, matrices, _ in export_instances(*evaluated(obj)):
+        normal = matrices[:, :3, 2] / np.linalg.norm(matrices[:, :3, 2], axis=1, keepdims=True)
+        assert np.abs(normal - np.array([0.0, -0.4, 1.0]) / math.hypot(0.4, 1.0)).max() < 1e-5
+    slope.location.z = 5.0
+    bpy.context.view_layer.update()
+    assert np.abs(points_of(obj)[:, 2] - 0.4 * (y + 50) - 5.0).max() < 1e-4
+    slope.location = (50.0, 0.0, 0.0)  # half of the field is beside it
+    bpy.context.view_layer.update()
+    assert 60 <= len(obj.data.vertices) <= 70 and points_of(obj)[:, 0].min() > -1e-4
+    obj.glimmer_field.pattern = "SCATTER"
+    points = points_of(obj).astype(np.float64)
+    assert np.abs(points[:, 2] - 0.4 * (points[:, 1] + 50)).max() < 1e-4 and points[:, 0].max() > 90.0
+    assert len(points) > 1000
+    obj.glimmer_field.ground = None
+    obj.glimmer_field.pattern = "HEXAGONS"
+    image = bpy.data.images.new("Heights", 4, 4, float_buffer=True)
+    image.pixels = np.repeat(np.linspace(0.0, 1.0, 4), 4).repeat(4).astype(np.float32).ravel().tolist()
+    obj.glimmer_field.image_size = 40.0
+    obj.glimmer_field.height_image = image
+    _, y, z = points_of(obj).T
+    assert np.abs(z - 10.0 * (y + 15.0) / 30.0).max() < 1e-4, "rows of pixels rise along y"
+    missing = bpy.data.images.new("Missing", 4, 4)
+    missing.source, missing.filepath = "FILE", "//nowhere.png"
+    obj.glimmer_field.enabled = False
+    obj.glimmer_field.height_image = missing
+    before = points_of(obj)
+    try:
+        field.rebuild(obj, load("hexfield.properties").read(obj.glimmer_field))
+    except ValueError as error:
+        assert "height_image is 'Missing', which has no pixels" in str(error)
+    else:
+        raise AssertionError("an image without pixels was taken")
+    assert np.array_equal(points_of(obj), before)
 
 
 def materials_reach_the_plates() -> None:
@@ -337,9 +499,9 @@ class _Probe(bpy.types.RenderEngine):
             if source.original.type == "MESH" and source.original.glimmer_field.enabled:
                 exported = export_instances(source, depsgraph)
                 looped = loop_instances(source.original, depsgraph)
-                for prototype, matrices in exported:
+                for prototype, matrices, _ in exported:
                     assert np.abs(looped[prototype.original.name] - matrices).max() < 1e-5
-                top = max(matrices[:, 2, 3].max() for _, matrices in exported)
+                top = max(matrices[:, 2, 3].max() for _, matrices, _ in exported)
                 bottom = min(vertex.co.z for vertex in exported[0][0].data.vertices)
                 self.seen.append((depsgraph.scene.frame_current, float(top), float(bottom)))
 
@@ -456,7 +618,7 @@ def operators_add_field_and_moons() -> None:
     try:
         bpy.ops.glimmer.add_hexagon_field(extent="RADIUS", radius=1e6)
     except RuntimeError as error:
-        assert "radius is 1e+06; allowed with plates of this size: 0 to 775" in str(error)
+        assert "radius is 1e+06; allowed with plates of this size: 0 to 1862" in str(error)
     else:
         raise AssertionError("a field of billions of plates was accepted")
 
@@ -483,6 +645,10 @@ CHECKS: tuple[Callable[[], None], ...] = (
     export_declines_what_it_cannot_know,
     empty_field,
     every_parameter_is_live,
+    attributes_are_of_the_plates,
+    the_viewport_shows_a_share,
+    far_plates_are_simple,
+    plates_stand_on_what_is_there,
     materials_reach_the_plates,
     slots_are_the_materials,
     plates_become_a_mesh,

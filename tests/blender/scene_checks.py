@@ -115,7 +115,7 @@ def plates() -> tuple[int, int]:
     depsgraph = bpy.context.evaluated_depsgraph_get()
     export = stage.tools("hexfield.export").export_instances
     results = [export(obj.evaluated_get(depsgraph), depsgraph) for obj in bpy.context.scene.objects]
-    exported = sum(len(matrices) for result in results if result is not None for _, matrices in result)
+    exported = sum(len(matrices) for result in results if result is not None for _, matrices, _ in result)
     return exported, sum(instance.is_instance for instance in depsgraph.object_instances)
 
 
