@@ -88,8 +88,9 @@ def _simplified(
 ) -> NDArray[np.int32]:
     points = np.empty(3 * len(variants), np.float32)
     mesh.vertices.foreach_get("co", points)
-    small = viewer.pixels(points.reshape(-1, 3), 2.0 * parameters.plate_radius) < parameters.simplify_pixels
+    pixels = viewer.pixels(points.reshape(-1, 3).astype(np.float64), 2.0 * parameters.plate_radius)
     plain = kinds(parameters).index(Kind.SIMPLE) * parameters.prototypes
+    small = pixels < parameters.simplify_pixels
     return np.where(small, plain + variants % parameters.prototypes, variants).astype(np.int32)
 
 
