@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -14,6 +15,7 @@ from .export.camera import export_camera
 from .export.film import export_film, export_settings, note_missing_passes
 from .export.instance import BulkReader
 from .export.scene import Exported, View, export_scene
+from .export.stereo import active_views, eye_of
 from .film import passes
 from .film.display import Display
 from .hexfield.export import export_instances
@@ -30,24 +32,32 @@ class Job(Protocol):
 
 @dataclass(frozen=True)
 class RenderJob:
-    exported: Exported
+    views: tuple[tuple[str, Exported], ...]  # by name; of no name where there is but one
     passes: tuple[passes.RenderPass, ...]
     layer: str
 
     def run(self, engine: bpy.types.RenderEngine) -> None:
         for item in self.passes[1:]:
             engine.add_pass(item.name(bpy.app.version), len(item.channels), item.channels, layer=self.layer)
-        engine.update_stats("", "Building")
-        render, _ = open_render(self.exported.scene)
+        for view, exported in self.views:
+            if engine.test_break() and view != self.views[0][0]:
+                break
+            self._render(engine, exported, view)
+
+    def _render(self, engine: bpy.types.RenderEngine, exported: Exported, view: str) -> None:
+        engine.update_stats("", f"Building {view}".rstrip())
+        render, _ = open_render(exported.scene)
         with render:
 
             def watch(report: dict[str, Any]) -> None:
-                reports.update(reports.collect(report, self.exported), self.layer)
+                reports.update(reports.collect(report, exported), self.layer)
 
             is_final = not engine.is_preview
-            display = Display(engine, render, self.exported.scene, self.passes, self.layer, watch if is_final else None)
+            display = Display(
+                engine, render, exported.scene, self.passes, self.layer, watch if is_final else None, view
+            )
             display.run()
-            report = reports.collect(render.report(), self.exported)
+            report = reports.collect(render.report(), exported)
             metadata = display.metadata()
             reports.note_denoising(report, display.denoised, display.problem)
         if is_final:
@@ -76,6 +86,29 @@ def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> J
     is_denoised = depsgraph.scene_eval.glimmer.use_denoising
     enabled = (passes.COMBINED,) if engine.is_preview else passes.enabled(depsgraph.view_layer_eval, is_denoised)
     engine.update_stats("", "Reading the scene")
+    # A preview's depsgraph is not the scene's.
+    set_frame = None if engine.is_preview else engine.frame_set
+    path = export_request.pop("path", None) if not engine.is_preview else None
+    names = ("",) if engine.is_preview else active_views(depsgraph.scene_eval.render)
+    views = []
+    for name in names:
+        if name:
+            engine.active_view_set(name)
+        view = _camera_view(engine, depsgraph, enabled, name)
+        exported = export_scene(depsgraph, view, bpy.app.version, BULK_READERS, set_frame=set_frame)
+        if path is not None:
+            return ExportJob(exported, path)
+        views.append((name, exported))
+    return RenderJob(tuple(views), enabled, depsgraph.view_layer_eval.name)
+
+
+def _camera_view(
+    engine: bpy.types.RenderEngine,
+    depsgraph: bpy.types.Depsgraph,
+    enabled: tuple[passes.RenderPass, ...],
+    view_name: str,
+) -> Callable[[bpy.types.Scene, Notices], View]:
+    """view_name: of a stereoscopic render, "" else."""
 
     def camera_view(scene: bpy.types.Scene, notices: Notices) -> View:
         film = export_film(scene, notices)
@@ -83,19 +116,19 @@ def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> J
             note_missing_passes(depsgraph.view_layer_eval, notices)
         camera = engine.camera_override or scene.camera
         evaluated = None if camera is None else camera.evaluated_get(depsgraph)
+        is_eye = view_name and evaluated is not None and evaluated.type == "CAMERA"
         return View(
             film,
-            export_camera(evaluated, (film.width, film.height), notices),
+            export_camera(
+                evaluated,
+                (film.width, film.height),
+                notices,
+                eye_of(engine, evaluated, view_name) if is_eye and evaluated is not None else None,
+            ),
             export_settings(scene, depsgraph.view_layer_eval, enabled, engine.is_preview),
         )
 
-    # A preview's depsgraph is not the scene's.
-    set_frame = None if engine.is_preview else engine.frame_set
-    path = export_request.pop("path", None) if not engine.is_preview else None
-    exported = export_scene(depsgraph, camera_view, bpy.app.version, BULK_READERS, set_frame=set_frame)
-    if path is not None:
-        return ExportJob(exported, path)
-    return RenderJob(exported, enabled, depsgraph.view_layer_eval.name)
+    return camera_view
 
 
 def begin_and_end_result(engine: bpy.types.RenderEngine) -> Any:

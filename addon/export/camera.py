@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.description import Camera, Floats, Orthographic, Perspective, Projection
+from ..scene.description import WHOLE, Camera, Floats, Orthographic, Panorama, Perspective, Projection
 from ..scene.problems import GlimmerError, Notices, place
+from .panorama import Window, panorama
+from .stereo import Eye
 
 if TYPE_CHECKING:
     import bpy
@@ -63,24 +65,29 @@ def _normalized(vector: list[float]) -> list[float]:
     return [v / length for v in vector]
 
 
-def export_camera(camera_object: bpy.types.Object | None, size: tuple[int, int], notices: Notices) -> Camera:
-    """size: (width, height) of the whole picture in pixels."""
+def export_camera(
+    camera_object: bpy.types.Object | None, size: tuple[int, int], notices: Notices, eye: Eye | None = None
+) -> Camera:
+    """size: (width, height) of the whole picture in pixels. eye: of a view of a stereoscopic render."""
     if camera_object is None or camera_object.type != "CAMERA":
         raise GlimmerError("The scene has no camera: add one, or set it under Scene properties > Scene > Camera")
     data: bpy.types.Camera = camera_object.data
     where = place(camera_object.name)
-    if data.type not in ("PERSP", "ORTHO"):
+    if data.type not in ("PERSP", "ORTHO", "PANO"):
         raise GlimmerError(_unsupported(camera_object))
-    to_world: Floats = np.array(camera_object.matrix_world, np.float64)
+    to_world: Floats = np.array(camera_object.matrix_world if eye is None else eye.to_world, np.float64)
+    shift_x = data.shift_x if eye is None else eye.shift_x
     if not np.isfinite(to_world).all() or np.linalg.matrix_rank(to_world[:3, :3]) < 3:
         raise GlimmerError(f"Camera '{camera_object.name}' has a scale of 0 or a matrix that is not finite")
     to_world = unscaled(to_world)
     in_widths = side_in_widths(data.sensor_fit, size)
     lens_radius, focus_distance = _depth_of_field(data, to_world, where, notices)
+    is_panoramic = data.type == "PANO"
     return Camera(
         to_world=to_world,
-        projection=_projection(data, size),
-        shift=(data.shift_x * in_widths, data.shift_y * in_widths),
+        projection=_panorama(camera_object, size, shift_x=shift_x) if is_panoramic else _projection(data, size),
+        shift=(0.0, 0.0) if is_panoramic else (shift_x * in_widths, data.shift_y * in_widths),
+        stereo=None if eye is None else eye.spherical,
         lens_radius=lens_radius,
         focus_distance=focus_distance,
         clip_start=data.clip_start,
@@ -92,6 +99,25 @@ def _projection(data: bpy.types.Camera, size: tuple[int, int]) -> Projection:
     if data.type == "ORTHO":
         return orthographic(data.ortho_scale, data.sensor_fit, size)
     return perspective(data.lens, (data.sensor_width, data.sensor_height), data.sensor_fit, size)
+
+
+def _panorama(
+    camera_object: bpy.types.Object, size: tuple[int, int], frame: Window = WHOLE, shift_x: float | None = None
+) -> Panorama:
+    """frame: what is shown of the picture, of size (width, height). The shift of a panorama is in parts of it."""
+    data = camera_object.data
+    sensor = data.sensor_height if data.sensor_fit == "VERTICAL" else data.sensor_width
+    x, y = data.shift_x if shift_x is None else shift_x, -data.shift_y
+    window = (frame[0] + x, frame[1] + y, frame[2] + x, frame[3] + y)
+    return panorama(camera_object, sensor / side_in_widths(data.sensor_fit, size), window)
+
+
+def window_around(frame: Window) -> Window:
+    """What a region shows of a picture whose frame is at (min x, min y, max x, max y), in shares of the region from the
+    bottom left: x0, y0, x1, y1 in shares of the picture from the top left."""
+    x0, y0, x1, y1 = frame
+    width, height = x1 - x0, y1 - y0
+    return -x0 / width, (y1 - 1.0) / height, (1.0 - x0) / width, y1 / height
 
 
 def view_projection(window_matrix: Floats) -> tuple[Projection, tuple[float, float]]:
@@ -110,14 +136,20 @@ def export_view(
     region_view: bpy.types.RegionView3D,
     camera_object: bpy.types.Object | None,
     notices: Notices,
+    frame: Window,
+    size: tuple[int, int],
 ) -> Camera:
-    """What a 3D view looks through. camera_object: evaluated, for a view through it."""
+    """What a 3D view looks through. camera_object: evaluated, for a view through it, whose picture of size (width,
+    height) is at `frame` (see window_around)."""
     data = None
     if region_view.view_perspective == "CAMERA" and camera_object is not None and camera_object.type == "CAMERA":
         data = camera_object.data
-        if data.type == "PANO":
+        if data.type not in ("PERSP", "ORTHO", "PANO"):
             raise GlimmerError(_unsupported(camera_object))
+    projection: Projection
     projection, shift = view_projection(np.array(region_view.window_matrix))
+    if data is not None and camera_object is not None and data.type == "PANO":
+        projection, shift = _panorama(camera_object, size, window_around(frame)), (0.0, 0.0)
     to_world = unscaled(np.array(region_view.view_matrix.inverted(), np.float64))
     lens_radius, focus_distance = 0.0, 1.0
     if data is not None and camera_object is not None:
@@ -138,9 +170,8 @@ def export_view(
 
 
 def _unsupported(camera_object: bpy.types.Object) -> str:
-    kind = camera_object.data.type
-    word = {"PANO": "panoramic"}.get(kind, kind.lower())
-    return f"Camera '{camera_object.name}' is {word}, which is not supported yet; allowed: perspective, orthographic"
+    kind = camera_object.data.type.lower()
+    return f"Camera '{camera_object.name}' is {kind}; allowed: perspective, orthographic, panoramic"
 
 
 def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notices: Notices) -> tuple[float, float]:
@@ -157,4 +188,8 @@ def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notice
     # A lens is in millimetres whatever the scene's unit, and the f-number divides its diameter. An orthographic camera
     # has none; Cycles takes one unit for it.
     diameter = 1.0 if data.type == "ORTHO" else 1e-3 * data.lens
-    return 0.5 * diameter / dof.aperture_fstop, max(distance, 1e-5)
+    radius, distance = 0.5 * diameter / dof.aperture_fstop, max(distance, 1e-5)
+    if data.type == "PANO" and radius > distance:
+        notices.add(where, "the aperture is larger than the distance in focus; it is as large as that")
+        radius = distance
+    return radius, distance

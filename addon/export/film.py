@@ -57,8 +57,6 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
         )
     if getattr(getattr(scene, "cycles", None), "use_fast_gi", False):
         notices.add("", "Fast GI Approximation is not done; light bounces as it does without it")
-    if render.use_multiview:
-        notices.add("", "stereoscopy is not supported; every view is the camera's own")
     size = full_size(render)
     crop = None
     if render.use_border:

@@ -71,8 +71,9 @@ class Display:
         passes: tuple[RenderPass, ...],
         layer: str,
         watch: Callable[[dict[str, Any]], None] | None = None,
+        view: str = "",
     ) -> None:
-        """watch: is told the engine's report whenever there is a new one."""
+        """watch: is told the engine's report whenever there is a new one. view: of a stereoscopic render."""
         self._engine = engine
         self._render = render
         self._settings = scene.settings
@@ -81,6 +82,7 @@ class Display:
         self.denoised = False
         self.problem = ""  # why the picture could not be denoised
         self._layer = layer
+        self._view = view
         self._names = cryptomatte.Names(
             [matte.name for matte in scene.mattes],
             self._material_names(scene),
@@ -168,7 +170,12 @@ class Display:
 
     def _show(self, tile: Tile, final: bool = False) -> None:
         result = self._engine.begin_result(
-            tile.x, self._whole.height - tile.y - tile.height, tile.width, tile.height, layer=self._layer
+            tile.x,
+            self._whole.height - tile.y - tile.height,
+            tile.width,
+            tile.height,
+            layer=self._layer,
+            view=self._view,
         )
         try:
             if (result.resolution_x, result.resolution_y) != (tile.width, tile.height):

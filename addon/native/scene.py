@@ -6,6 +6,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from ctypes import byref, c_double, c_float, c_uint32, c_void_p
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,22 @@ def _contiguous_floats(array: Any) -> tuple[Any, Format]:
 
 def _pointer(array: Any) -> int | None:
     return None if array is None else array.ctypes.data
+
+
+def _set_projection(desc: structs.CameraDesc, projection: d.Projection) -> None:
+    match projection:
+        case d.Perspective():
+            desc.type, desc.fov_x = CameraType.PERSPECTIVE, projection.fov_x
+        case d.Orthographic():
+            desc.type, desc.width = CameraType.ORTHOGRAPHIC, projection.width
+        case _:
+            desc.type = CameraType[projection.TYPE.upper()]
+            for item in fields(projection):
+                value = getattr(projection, item.name)
+                if isinstance(value, tuple):
+                    getattr(desc, item.name)[:] = value
+                else:
+                    setattr(desc, "fisheye_fov" if item.name == "fov" else item.name, value)
 
 
 def _matrix(array: Any) -> Any:
@@ -143,13 +160,13 @@ class NativeScene:
     def _set_camera(self, camera: d.Camera) -> None:
         desc = self.library.init(structs.CameraDesc)
         desc.to_world = _matrix(camera.to_world)
-        if isinstance(camera.projection, d.Perspective):
-            desc.type, desc.fov_x = CameraType.PERSPECTIVE, camera.projection.fov_x
-        else:
-            desc.type, desc.width = CameraType.ORTHOGRAPHIC, camera.projection.width
+        _set_projection(desc, camera.projection)
         desc.shift = (c_double * 2)(*camera.shift)
         desc.lens_radius, desc.focus_distance = camera.lens_radius, camera.focus_distance
         desc.clip_start, desc.clip_end = camera.clip_start, camera.clip_end
+        if camera.stereo is not None:
+            desc.stereo_offset, desc.stereo_convergence = camera.stereo.offset, camera.stereo.convergence
+            desc.stereo_merge[:] = camera.stereo.merge
         motion = None
         if camera.motion is not None:
             motion = np.ascontiguousarray(camera.motion, np.float64)

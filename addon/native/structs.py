@@ -52,6 +52,8 @@ class LightType(IntEnum):
 
 class CameraType(IntEnum):
     PERSPECTIVE, ORTHOGRAPHIC = range(2)
+    EQUIRECTANGULAR, FISHEYE_EQUIDISTANT, FISHEYE_EQUISOLID, FISHEYE_POLYNOMIAL = range(2, 6)
+    MIRROR_BALL, CUBE_FACE, CYLINDRICAL = range(6, 9)
 
 
 class Filter(IntEnum):
@@ -274,6 +276,16 @@ class CameraDesc(ctypes.Structure):
         ("width", c_double),
         ("motion", c_void_p),
         ("motion_count", c_size_t),
+        ("window", c_double * 4),
+        ("longitude", c_double * 2),
+        ("latitude", c_double * 2),
+        ("elevation", c_double * 2),
+        ("fisheye_fov", c_double),
+        ("focal_length", c_double),
+        ("polynomial", c_double * 5),
+        ("stereo_offset", c_double),
+        ("stereo_convergence", c_double),
+        ("stereo_merge", c_double * 2),
     ]
 
 

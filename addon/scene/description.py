@@ -84,7 +84,74 @@ class Orthographic:
     width: float  # of what the whole picture shows, a length
 
 
-Projection = Perspective | Orthographic
+# Panoramas: TYPE and the names of the fields are those of scene files.
+WHOLE = (0.0, 0.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Equirectangular:
+    TYPE: ClassVar[str] = "equirectangular"
+    longitude: tuple[float, float] = (-180.0, 180.0)  # degrees at the left and right edge, positive is right
+    latitude: tuple[float, float] = (-90.0, 90.0)  # at the bottom and top edge
+    window: tuple[float, float, float, float] = WHOLE  # the part that is shown: x0, y0, x1, y1, from the top left
+
+
+@dataclass(frozen=True)
+class Cylindrical:
+    TYPE: ClassVar[str] = "cylindrical"
+    longitude: tuple[float, float] = (-180.0, 180.0)
+    elevation: tuple[float, float] = (-1.0, 1.0)  # tangent of the latitude at the bottom and top edge
+    window: tuple[float, float, float, float] = WHOLE
+
+
+@dataclass(frozen=True)
+class FisheyeEquidistant:
+    TYPE: ClassVar[str] = "fisheye_equidistant"
+    fov: float = 180.0  # degrees from edge to edge
+    window: tuple[float, float, float, float] = WHOLE
+
+
+@dataclass(frozen=True)
+class FisheyeEquisolid:
+    TYPE: ClassVar[str] = "fisheye_equisolid"
+    focal_length: float  # in widths of the whole panorama
+    fov: float = 180.0  # degrees; nothing is seen outside this cone
+    window: tuple[float, float, float, float] = WHOLE
+
+
+@dataclass(frozen=True)
+class FisheyePolynomial:
+    TYPE: ClassVar[str] = "fisheye_polynomial"
+    polynomial: tuple[float, ...]  # 5, of powers of the distance from the middle in widths; radians to the axis
+    fov: float = 180.0
+    window: tuple[float, float, float, float] = WHOLE
+
+
+@dataclass(frozen=True)
+class MirrorBall:
+    TYPE: ClassVar[str] = "mirror_ball"
+    window: tuple[float, float, float, float] = WHOLE
+
+
+@dataclass(frozen=True)
+class CubeFace:
+    TYPE: ClassVar[str] = "cube_face"
+    window: tuple[float, float, float, float] = WHOLE
+
+
+Panorama = (
+    Equirectangular | Cylindrical | FisheyeEquidistant | FisheyeEquisolid | FisheyePolynomial | MirrorBall | CubeFace
+)
+Projection = Perspective | Orthographic | Panorama
+
+
+@dataclass(frozen=True)
+class SphericalStereo:
+    """One eye of a pair whose head turns to every direction, z up."""
+
+    offset: float  # rays start so far to the right, below 0 to the left
+    convergence: float = float("inf")  # the distance where the eyes' rays meet
+    merge: tuple[float, float] = (180.0, 180.0)  # degrees from the horizon between which the offset falls to 0
 
 
 @dataclass(frozen=True)
@@ -94,8 +161,9 @@ class Camera:
     shift: tuple[float, float] = (0.0, 0.0)  # in widths of the picture
     lens_radius: float = 0.0
     focus_distance: float = 1.0
-    clip_start: float = 0.0  # along the axis; below 0, behind it, for an orthographic camera alone
+    clip_start: float = 0.0  # along the axis; below 0, behind it, for an orthographic camera alone; of panoramas radii
     clip_end: float = float("inf")
+    stereo: SphericalStereo | None = None
     motion: Floats | None = None  # (steps, 4, 4), evenly spaced while the shutter is open, in place of to_world
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import asdict
 from math import isinf
 from pathlib import Path
 from typing import Any
@@ -276,10 +277,18 @@ def _camera(camera: d.Camera) -> Json:
         result["to_world"] = _numbers(camera.to_world)
     else:
         result["motion"] = [_numbers(step) for step in camera.motion]
-    if isinstance(camera.projection, d.Perspective):
-        result["fov_x"] = camera.projection.fov_x
-    else:
-        result["type"], result["width"] = "orthographic", camera.projection.width
+    match camera.projection:
+        case d.Perspective(fov_x):
+            result["fov_x"] = fov_x
+        case d.Orthographic(width):
+            result["type"], result["width"] = "orthographic", width
+        case panorama:
+            result["type"] = panorama.TYPE
+            result |= {name: list(v) if isinstance(v, tuple) else v for name, v in asdict(panorama).items()}
+    if camera.stereo is not None:
+        result["stereo"] = {"offset": camera.stereo.offset, "merge": list(camera.stereo.merge)}
+        if not isinf(camera.stereo.convergence):
+            result["stereo"]["convergence"] = camera.stereo.convergence
     if any(camera.shift):
         result["shift"] = list(camera.shift)
     if camera.lens_radius > 0.0:

@@ -1,11 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Depth of field. Blender's panels belong to EEVEE and Workbench, and hold also what Glimmer does not render: blades
-and ratio of the aperture, which stand here only where a file has set them.
+"""Panoramas, and depth of field. Blender's panels belong to EEVEE and Workbench, and hold what Glimmer does not render:
+blades and ratio of the aperture, which stand here only where a file has set them.
 """
 
 import bpy
 
+from ..export.panorama import SETTINGS, settings_of
 from .panel import GlimmerPanel, draw_wrapped
+
+
+class GLIMMER_PT_panorama(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Panorama"
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.camera is not None and context.camera.type == "PANO"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, settings_of(context.camera)
+        layout.use_property_split = True
+        if settings is None:
+            draw_wrapped(
+                layout, context, "Its settings are those of the add-on Cycles Render Engine: enable it", "ERROR"
+            )
+            return
+        layout.prop(settings, "panorama_type", text="Type")
+        for name in SETTINGS.get(settings.panorama_type, ()):
+            layout.prop(settings, name)
 
 
 class GLIMMER_PT_depth_of_field(GlimmerPanel, bpy.types.Panel):
@@ -41,9 +63,4 @@ def is_round(dof: bpy.types.CameraDOFSettings) -> bool:
     return dof.aperture_blades < 3 and dof.aperture_ratio == 1.0
 
 
-def register() -> None:
-    bpy.utils.register_class(GLIMMER_PT_depth_of_field)
-
-
-def unregister() -> None:
-    bpy.utils.unregister_class(GLIMMER_PT_depth_of_field)
+register, unregister = bpy.utils.register_classes_factory((GLIMMER_PT_panorama, GLIMMER_PT_depth_of_field))

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..export.camera import export_view
-from ..export.film import export_view_settings, film_exposure, filter_settings, transparency
+from ..export.film import export_view_settings, film_exposure, filter_settings, full_size, transparency
 from ..export.instance import BulkReader
 from ..export.scene import View, export_scene
 from ..film.display import status
@@ -147,7 +147,7 @@ class RenderedView:
                 **filter_settings(scene.glimmer),
                 **transparency(scene),
             ),
-            export_view(space, context.region_data, evaluated, notices),
+            export_view(space, context.region_data, evaluated, notices, *_picture(context, scene, evaluated)),
             export_view_settings(scene),
         )
 
@@ -200,15 +200,32 @@ def _border(
         )
     if not render.use_border:
         return None
-    to_clip = region_view.perspective_matrix @ camera.matrix_world.normalized()
-    clipped = [to_clip @ corner.to_4d() for corner in camera.data.view_frame(scene=scene)]
-    x0, y0, x1, y1 = camera_frame([(point.x / point.w, point.y / point.w) for point in clipped])
+    x0, y0, x1, y1 = _frame(region_view, scene, camera)
     return (
         x0 + (x1 - x0) * render.border_min_x,
         y0 + (y1 - y0) * render.border_min_y,
         x0 + (x1 - x0) * render.border_max_x,
         y0 + (y1 - y0) * render.border_max_y,
     )
+
+
+def _frame(
+    region_view: bpy.types.RegionView3D, scene: bpy.types.Scene, camera: bpy.types.Object
+) -> tuple[float, float, float, float]:
+    """Where a camera's picture is: min_x, min_y, max_x, max_y from the bottom left in shares of the region."""
+    to_clip = region_view.perspective_matrix @ camera.matrix_world.normalized()
+    clipped = [to_clip @ corner.to_4d() for corner in camera.data.view_frame(scene=scene)]
+    return camera_frame([(point.x / point.w, point.y / point.w) for point in clipped])
+
+
+def _picture(
+    context: bpy.types.Context, scene: bpy.types.Scene, camera: bpy.types.Object | None
+) -> tuple[tuple[float, float, float, float], tuple[int, int]]:
+    """Where the picture of the camera that a view looks through is, and its size in pixels."""
+    size = full_size(scene.render)
+    if context.region_data.view_perspective != "CAMERA" or camera is None or camera.type != "CAMERA":
+        return (0.0, 0.0, 1.0, 1.0), size
+    return _frame(context.region_data, scene, camera), size
 
 
 def _view_state(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene) -> tuple[Any, ...]:

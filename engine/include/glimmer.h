@@ -390,7 +390,19 @@ GLIMMER_API glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const 
  * through it. Not together with media within surfaces. */
 GLIMMER_API glimmer_result glimmer_scene_set_medium_falloff(glimmer_scene *scene, double height, double scale_height);
 
-typedef enum glimmer_camera_type { GLIMMER_PERSPECTIVE = 0, GLIMMER_ORTHOGRAPHIC = 1 } glimmer_camera_type;
+/* From 2 on panoramas, which Blender's users know from Cycles. r: distance from the picture's middle in widths of the
+ * whole panorama, theta: angle to the axis. Clipping planes and what is in focus are spheres about the camera then. */
+typedef enum glimmer_camera_type {
+    GLIMMER_PERSPECTIVE = 0,
+    GLIMMER_ORTHOGRAPHIC = 1,
+    GLIMMER_EQUIRECTANGULAR = 2,     /* longitude across, latitude up */
+    GLIMMER_FISHEYE_EQUIDISTANT = 3, /* theta grows evenly from the middle to an ellipse that touches all four edges */
+    GLIMMER_FISHEYE_EQUISOLID = 4,   /* r = 2 focal_length sin(theta / 2) */
+    GLIMMER_FISHEYE_POLYNOMIAL = 5,  /* theta = a polynomial of r */
+    GLIMMER_MIRROR_BALL = 6,         /* what a ball of mirror shows from far away; an ellipse as above */
+    GLIMMER_CUBE_FACE = 7,           /* 90 degrees across and up, by equal angles */
+    GLIMMER_CYLINDRICAL = 8          /* longitude across, tangent of the latitude up */
+} glimmer_camera_type;
 
 typedef struct glimmer_camera_desc {
     size_t struct_size;
@@ -407,6 +419,21 @@ typedef struct glimmer_camera_desc {
      * again; neighbours turn by less than a right angle. null (the default): still. */
     const double *motion;
     size_t motion_count; /* 2 to 1024, used when motion is not null */
+    /* Panoramas. The part of the whole that the picture shows: x0, y0, x1, y1, x right, y down, all of it 0 to 1 (the
+     * default); x0 < x1, y0 < y1; -1000 to 1000 */
+    double window[4];
+    double longitude[2];  /* degrees, at the left and right edge; positive is right; default -180, 180; they differ */
+    double latitude[2];   /* degrees, at the bottom and top edge; -90 to 90; they differ */
+    double elevation[2];  /* cylindrical: tangent of the latitude, at the bottom and top edge; default -1, 1 */
+    double fisheye_fov;   /* degrees; nothing is seen outside this cone; above 0, 3600 at most; default 180 */
+    double focal_length;  /* equisolid: in widths of the whole panorama; above 0; default 0.29 */
+    double polynomial[5]; /* coefficients of r^0 to r^4, radians; default theta = pi r */
+    /* Spherical stereo, one eye of two whose head turns to every direction, about z, in a panorama about the camera's y
+     * axis; not of orthographic cameras. Rays start `stereo_offset` to the right (below 0: left; 0, the default: no
+     * stereo), and meet those of the other eye at the distance `stereo_convergence` (above 0; infinity, the default:
+     * nowhere). From stereo_merge[0] to [1] degrees above and below the horizon the offset falls to 0; default 180, 180:
+     * nowhere. */
+    double stereo_offset, stereo_convergence, stereo_merge[2];
 } glimmer_camera_desc;
 
 GLIMMER_API void glimmer_camera_init(glimmer_camera_desc *desc);

@@ -6,16 +6,31 @@ using namespace glimmer;
 using namespace glimmer::probe;
 
 struct probe_camera {
-    int32_t type; // 0 perspective, 1 orthographic
+    int32_t type; // 0 perspective, 1 orthographic, 2 panoramic
     float right[3], up[3], forward[3];
     float half_width, aspect, shift[2], lens_radius, focus_distance, clip_start, clip_end;
+    int32_t panorama; // PanoramaType
+    float longitude[2], latitude[2], half_angle, focal_length, polynomial[5], window[4];
 };
 
 static Camera camera(const probe_camera &c) {
-    const CameraBase base{load3(c.right), load3(c.up),   load3(c.forward), c.half_width, c.aspect,
-                          load2(c.shift), c.lens_radius, c.focus_distance, c.clip_start, c.clip_end};
+    const CameraBase base{load3(c.right), load3(c.up),      load3(c.forward), c.half_width, c.aspect, load2(c.shift),
+                          c.lens_radius,  c.focus_distance, c.clip_start,     c.clip_end,   {}};
     if (c.type == 1)
         return OrthographicCamera{base};
+    if (c.type == 2) {
+        Panorama p;
+        p.type = PanoramaType(c.panorama);
+        p.window = {load2(c.window), load2(c.window + 2)};
+        p.aspect = c.aspect;
+        std::copy_n(c.longitude, 2, p.longitude);
+        std::copy_n(c.latitude, 2, p.latitude);
+        p.half_angle = c.half_angle;
+        p.focal_length = c.focal_length;
+        std::copy_n(c.polynomial, 5, p.polynomial.begin());
+        p.reach = p.farthest({});
+        return PanoramicCamera{base, p};
+    }
     return PerspectiveCamera{base};
 }
 
@@ -27,6 +42,27 @@ PROBE void probe_camera_generate(const probe_camera *c, const float *film, const
         store(rays + 7 * i + 3, ray.direction);
         rays[7 * i + 6] = ray.t_max;
     }
+}
+
+/// film [n, 2]; seen [n]: whether the ray is not blind.
+PROBE void probe_camera_is_seeing(const probe_camera *c, const float *film, uint64_t n, int32_t *seeing) {
+    for (uint64_t i = 0; i < n; ++i)
+        seeing[i] = !camera(*c).generate(load2(film + 2 * i), {}, {}).is_blind();
+}
+
+/// film [2]; places [n, 2], the rest is left as it is; returns how many there are.
+PROBE uint64_t probe_camera_places(const probe_camera *c, const float *film, uint64_t n, float *places) {
+    uint64_t count = 0;
+    camera(*c).for_each_place(load2(film), [&](Vec2f at) {
+        if (count < n)
+            store(places + 2 * count, at);
+        ++count;
+    });
+    return count;
+}
+
+PROBE int32_t probe_camera_is_invertible(const probe_camera *c) {
+    return camera(*c).is_invertible({});
 }
 
 /// x [n, 3], lens [n, 2]; seen [n]; film [n, 2]; rays [n, 7] as above, to the point; area [n]: of the whole film.

@@ -163,12 +163,30 @@ def varying_haze() -> d.Medium:
     return replace(found, program=program)
 
 
+WINDOW = (0.1, -0.05, 1.1, 0.9)
+PANORAMAS: tuple[d.Panorama, ...] = (
+    d.Equirectangular((-170.0, 150.0), (-80.0, 90.0), WINDOW),
+    d.Cylindrical((-170.0, 150.0), (-0.5, 1.5), WINDOW),
+    d.FisheyeEquidistant(200.0, WINDOW),
+    d.FisheyeEquisolid(0.3, 200.0, WINDOW),
+    d.FisheyePolynomial((0.001, 2.0, 0.3, -0.2, 0.1), 150.0, WINDOW),
+    d.MirrorBall(WINDOW),
+    d.CubeFace(WINDOW),
+)
 VARIANTS = {
     "hidden from some": hidden_from_some(),
     "plain": SCENE,
     "fog": replace(SCENE, medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4)),
     "image": replace(SCENE, environment=d.Environment((0.7, 0.7, 0.7), picture(), place(0, 0, 0, 0.8))),
     "orthographic": replace(SCENE, camera=replace(camera(), projection=d.Orthographic(9.0), clip_start=-2.0)),
+    **{
+        f"panorama, {type(kind).__name__}": replace(
+            SCENE,
+            camera=replace(camera(), projection=kind, shift=(0.0, 0.0), clip_start=0.1, clip_end=50.0),
+            medium=d.Medium((0.01, 0.02, 0.03), (0.05, 0.04, 0.03), 0.4),
+        )
+        for kind in PANORAMAS
+    },
     "programs": varying(),
     "motion": replace(
         SCENE, objects=tuple(replace(o, motion=np.stack([o.to_world, place(1, 1, 0.2)])) for o in SCENE.objects[:1])

@@ -108,6 +108,15 @@ def orthographic() -> None:
     data.dof.aperture_fstop = 2.0
 
 
+def fisheye() -> None:
+    """With a lens, and the filter's ends beyond the circle."""
+    camera()
+    data = bpy.context.scene.camera.data
+    data.type, data.shift_x, data.shift_y = "PANO", 0.0, 0.0
+    settings = data if hasattr(data, "panorama_type") else data.cycles
+    settings.panorama_type, settings.fisheye_fov = "FISHEYE_EQUIDISTANT", 2.5
+
+
 def instances() -> None:
     """A collection in a collection, turned and scaled, with a lamp in it."""
     inside.empty_scene((0.1, 0.1, 0.1))
@@ -395,6 +404,7 @@ SCENES: dict[str, Callable[[], Any]] = {
     "world image": world_image,
     "camera": camera,
     "orthographic": orthographic,
+    "fisheye": fisheye,
     "instances": instances,
     "hidden instancers": hidden_instancers,
     "curves and texts": curves_and_texts,

@@ -136,9 +136,14 @@ def picture(path: Path, engine: str, seed: int) -> Any:
     scene.render.engine = engine
     scene.cycles.seed = scene.glimmer.seed = seed
     render(path)
+    return pixels(path)
+
+
+def pixels(path: Path) -> Any:
+    """(height, width, 3) of float32, bottom row first: what a file shows."""
     image = bpy.data.images.load(str(path), check_existing=False)
     width, height = image.size
-    pixels = np.empty(width * height * image.channels, np.float32)
-    image.pixels.foreach_get(pixels)
+    values = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(values)
     bpy.data.images.remove(image)
-    return pixels.reshape(height, width, -1)[..., :3]
+    return values.reshape(height, width, -1)[..., :3]

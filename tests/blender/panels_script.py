@@ -22,6 +22,9 @@ import inside
 glimmer = inside.enable()
 ADDON = Path(glimmer.__file__).parent
 
+from glimmer.export.panorama import SETTINGS  # noqa: E402 - the add-on's name inside Blender
+from glimmer.export.panorama import settings_of as panorama_settings  # noqa: E402
+
 # Whose properties decide on the picture.
 BLENDERS = ("Camera", "Object", "RenderSettings", "Scene", "ViewLayer", "World", "Material")
 LIGHTS = ("PointLight", "SpotLight", "SunLight", "AreaLight")
@@ -128,12 +131,22 @@ def scene() -> list[Any]:
     flat = bpy.data.objects.new("Flat", bpy.data.cameras.new("Flat"))
     flat.data.type = "ORTHO"
     bpy.context.scene.collection.objects.link(flat)
+    around = []
+    for kind in SETTINGS:
+        item = bpy.data.objects.new(kind, bpy.data.cameras.new(kind))
+        item.data.type = "PANO"
+        try:
+            panorama_settings(item.data).panorama_type = kind
+        except TypeError:  # this Blender has no such type
+            continue
+        bpy.context.scene.collection.objects.link(item)
+        around.append(item)
     settings = bpy.context.scene
     settings.render.use_multiview = settings.render.film_transparent = True
     settings.render.threads_mode = "FIXED"
     settings.cycles.rolling_shutter_type = "TOP"
     settings.world.cycles.max_bounces = 3
-    return [thing, instancer, lens, flat, *lamps]
+    return [thing, instancer, lens, flat, *around, *lamps]
 
 
 def draw(panel: Any, context: Context) -> None:

@@ -147,6 +147,23 @@ def metal_in_parallel_rays() -> Builder:
     return light_by_way_of_metal().seen_by(view, d.Film(40, 30, (5, 3, 37, 27), "blackman_harris", 1.8))
 
 
+PANORAMAS: dict[str, d.Panorama] = {
+    "panorama": d.Equirectangular(),  # whole, so that filters reach past its edges
+    "fisheye": d.FisheyeEquidistant(100.0),
+    "equisolid": d.FisheyeEquisolid(0.4, 90.0),
+    "polynomial": d.FisheyePolynomial((0.0, 1.5, 0.2, 0.3, 0.1), 100.0),
+    "mirror ball": d.MirrorBall(),
+    "cube face": d.CubeFace(),
+    "cylinder": d.Cylindrical((-70.0, 50.0), (-0.6, 0.8)),
+}
+
+
+def metal_in_a_panorama(panorama: d.Panorama) -> Builder:
+    """The fog behind the screen, half of its light thrown there by smooth metal, through a lens."""
+    view = d.Camera(look_at((3, -3, 2.2), (3, 4, 2.2)), panorama, lens_radius=0.3, focus_distance=5, clip_start=0.2)
+    return light_by_way_of_metal().seen_by(view, d.Film(32, 24, filter="blackman_harris", filter_width=2.5))
+
+
 def moving_plates() -> Builder:
     """Plates and a ball that move far while the shutter is open, and hide the moons from the fog now and then, seen by
     a camera on its way: all pixels of a wave share light vertices and splats that were made at one moment."""
@@ -273,6 +290,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "glints through a lens": glints_through_a_lens,
     "light by way of metal, in parallel rays": metal_in_parallel_rays,
     "glass in parallel rays, through a lens": lambda: from_a_distance(glass_in_fog()),
+    **{f"metal, {name}": lambda kind=kind: metal_in_a_panorama(kind) for name, kind in PANORAMAS.items()},
     "moving plates": moving_plates,
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
@@ -294,7 +312,11 @@ SCENES: dict[str, Callable[[], Builder]] = {
 
 
 # Relatives of "light by way of metal" that take long.
-LONG = ("light by way of metal, in a mirror", "light by way of metal, forward")
+LONG = (
+    "light by way of metal, in a mirror",
+    "light by way of metal, forward",
+    *(f"metal, {name}" for name in PANORAMAS if name not in ("panorama", "equisolid")),
+)
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.full] * (name in LONG)) for name in SCENES])

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace glimmer {
 namespace {
@@ -36,31 +37,89 @@ Matrix look_at(const Value &camera) {
 
 void read_clip(const Value &clip, glimmer_camera_desc &desc) {
     clip.expect_size(2);
-    const bool perspective = desc.type == GLIMMER_PERSPECTIVE;
+    const bool in_front = desc.type != GLIMMER_ORTHOGRAPHIC;
     clip.for_each([&, is_start = true](const Value &end) mutable {
         if (std::exchange(is_start, false))
-            desc.clip_start = end.number(perspective ? kNonNegative : kAny);
+            desc.clip_start = end.number(in_front ? kNonNegative : kAny);
         else
             desc.clip_end = end.json().is_null() ? std::numeric_limits<double>::infinity()
-                                                 : end.number(perspective ? kPositive : kAny);
+                                                 : end.number(in_front ? kPositive : kAny);
     });
     if (desc.clip_start >= desc.clip_end)
         clip.fail(clip.json().dump() + " is not [start, end] with start < end (or null for no end)");
 }
 
+/// The keys of each type besides those of all.
+std::vector<std::string_view> keys_of(glimmer_camera_type type) {
+    switch (type) {
+    case GLIMMER_PERSPECTIVE:
+        return {"fov_x", "shift"};
+    case GLIMMER_ORTHOGRAPHIC:
+        return {"width", "shift"};
+    case GLIMMER_EQUIRECTANGULAR:
+        return {"window", "longitude", "latitude"};
+    case GLIMMER_CYLINDRICAL:
+        return {"window", "longitude", "elevation"};
+    case GLIMMER_FISHEYE_EQUIDISTANT:
+        return {"window", "fov"};
+    case GLIMMER_FISHEYE_EQUISOLID:
+        return {"window", "fov", "focal_length"};
+    case GLIMMER_FISHEYE_POLYNOMIAL:
+        return {"window", "fov", "polynomial"};
+    default:
+        return {"window"};
+    }
+}
+
+template <size_t n>
+void read_numbers(const Value &value, const char *key, double (&out)[n]) {
+    if (const auto found = value.find(key)) {
+        const auto numbers = found->numbers<n>();
+        std::copy(numbers.begin(), numbers.end(), out);
+    }
+}
+
+void read_stereo(const Value &stereo, glimmer_camera_desc &desc) {
+    stereo.expect_object({"offset", "convergence", "merge"});
+    desc.stereo_offset = stereo.at("offset").number();
+    if (const auto distance = stereo.find("convergence"))
+        desc.stereo_convergence = distance->number(kPositive);
+    read_numbers(stereo, "merge", desc.stereo_merge);
+}
+
+void read_panorama(const Value &value, glimmer_camera_desc &desc) {
+    read_numbers(value, "window", desc.window);
+    read_numbers(value, "longitude", desc.longitude);
+    read_numbers(value, "latitude", desc.latitude);
+    read_numbers(value, "elevation", desc.elevation);
+    if (const auto fov = value.find("fov"))
+        desc.fisheye_fov = fov->number(kPositive);
+    if (desc.type == GLIMMER_FISHEYE_EQUISOLID)
+        desc.focal_length = value.at("focal_length").number(kPositive);
+    if (desc.type == GLIMMER_FISHEYE_POLYNOMIAL) {
+        value.at("polynomial");
+        read_numbers(value, "polynomial", desc.polynomial);
+    }
+}
+
 } // namespace
 
 void read_camera(const Value &value, glimmer_scene *scene) {
-    constexpr std::string_view names[] = {"perspective", "orthographic"};
-    constexpr glimmer_camera_type types[] = {GLIMMER_PERSPECTIVE, GLIMMER_ORTHOGRAPHIC};
+    constexpr std::string_view names[] = {
+        "perspective",        "orthographic", "equirectangular", "fisheye_equidistant", "fisheye_equisolid",
+        "fisheye_polynomial", "mirror_ball",  "cube_face",       "cylindrical"}; // in the order of the types
     glimmer_camera_desc desc;
     glimmer_camera_init(&desc);
     value.expect_table();
     if (const auto type = value.find("type"))
-        desc.type = types[one_of(*type, "a camera type", "camera types", names)];
-    const bool perspective = desc.type == GLIMMER_PERSPECTIVE;
-    value.expect_object({"type", "origin", "target", "up", "to_world", perspective ? "fov_x" : "width", "shift",
-                         "lens_radius", "focus_distance", "clip", "motion"});
+        desc.type = glimmer_camera_type(one_of(*type, "a camera type", "camera types", names));
+    std::vector<std::string_view> keys{"type",        "origin",         "target", "up",    "to_world",
+                                       "lens_radius", "focus_distance", "clip",   "motion"};
+    if (desc.type != GLIMMER_ORTHOGRAPHIC)
+        keys.push_back("stereo");
+    const std::vector<std::string_view> own = keys_of(desc.type);
+    keys.insert(keys.end(), own.begin(), own.end());
+    value.expect_object(keys);
     const bool has_matrix = value.has("to_world"), moves = value.has("motion");
     const bool looks_at = value.has("origin") || value.has("target") || value.has("up");
     if (int(has_matrix) + int(looks_at) + int(moves) != 1)
@@ -73,14 +132,15 @@ void read_camera(const Value &value, glimmer_scene *scene) {
         const Matrix to_world = has_matrix ? value.at("to_world").matrix() : look_at(value);
         std::copy(to_world.begin(), to_world.end(), desc.to_world);
     }
-    if (perspective)
+    if (desc.type == GLIMMER_PERSPECTIVE)
         desc.fov_x = value.at("fov_x").number({.low = 0, .high = 180, .open_low = true, .open_high = true});
-    else
+    else if (desc.type == GLIMMER_ORTHOGRAPHIC)
         desc.width = value.at("width").number(kPositive);
-    if (const auto shift = value.find("shift")) {
-        const auto numbers = shift->numbers<2>();
-        std::copy(numbers.begin(), numbers.end(), desc.shift);
-    }
+    else
+        read_panorama(value, desc);
+    read_numbers(value, "shift", desc.shift);
+    if (const auto stereo = value.find("stereo"))
+        read_stereo(*stereo, desc);
     if (const auto radius = value.find("lens_radius"))
         desc.lens_radius = radius->number(kNonNegative);
     if (const auto distance = value.find("focus_distance"))

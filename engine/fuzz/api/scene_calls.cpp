@@ -178,7 +178,11 @@ void set_camera(Input &in, glimmer_scene *scene) {
     if (in.ConsumeBool())
         desc.clip_start = in.number(), desc.clip_end = in.number();
     if (in.ConsumeBool())
-        desc.type = static_cast<glimmer_camera_type>(in.ConsumeIntegralInRange<int>(0, 2)), desc.width = in.number();
+        desc.type = static_cast<glimmer_camera_type>(in.ConsumeIntegralInRange<int>(0, 9)), desc.width = in.number();
+    if (in.ConsumeBool())
+        in.fill(desc.window, 4), in.fill(desc.longitude, 2), in.fill(desc.latitude, 2), in.fill(desc.elevation, 2);
+    if (in.ConsumeBool())
+        desc.fisheye_fov = in.number(), desc.focal_length = in.number(), in.fill(desc.polynomial, 5);
     in.spoil_size(desc);
     expect(glimmer_scene_set_camera(scene, &desc));
 }

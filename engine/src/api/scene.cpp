@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes: every description is checked here, whole, before anything is kept.
 #include "api/handles.h"
+#include "math/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -406,6 +407,54 @@ void glimmer_camera_init(glimmer_camera_desc *desc) {
     desc->clip_end = HUGE_VAL;
     desc->type = GLIMMER_PERSPECTIVE;
     desc->width = 1;
+    desc->window[2] = desc->window[3] = 1;
+    desc->longitude[0] = -180, desc->longitude[1] = 180;
+    desc->latitude[0] = -90, desc->latitude[1] = 90;
+    desc->elevation[0] = -1, desc->elevation[1] = 1;
+    desc->fisheye_fov = 180;
+    desc->focal_length = 0.29;
+    desc->polynomial[1] = kPiDouble;
+    desc->stereo_convergence = HUGE_VAL;
+    desc->stereo_merge[0] = desc->stereo_merge[1] = 180;
+}
+
+static void check_stereo(const glimmer_camera_desc &d) {
+    check_range(d.stereo_offset, -1e6, 1e6, "camera: stereo_offset");
+    if (!(d.stereo_convergence > 0))
+        fail_argument("camera: stereo_convergence is " + text(d.stereo_convergence) + "; allowed: above 0");
+    for (const double v : d.stereo_merge)
+        check_range(v, 0, 180, "camera: stereo_merge");
+    if (d.stereo_merge[1] < d.stereo_merge[0])
+        fail_argument("camera: stereo_merge ends at " + text(d.stereo_merge[1]) + "; allowed: its begin, " +
+                      text(d.stereo_merge[0]) + ", at least");
+}
+
+static void check_panorama(const glimmer_camera_desc &d) {
+    for (const double v : d.window)
+        check_range(v, -1000, 1000, "camera: window");
+    if (!(d.window[0] < d.window[2] && d.window[1] < d.window[3]))
+        fail_argument("camera: the window is empty; allowed: x0 < x1, y0 < y1");
+    const auto differ = [](const double(&ends)[2], double most, const std::string &what) {
+        for (const double v : ends)
+            check_range(v, -most, most, what);
+        if (!(std::abs(ends[1] - ends[0]) > 1e-6))
+            fail_argument(what + " begins and ends at " + text(ends[0]) + "; allowed: two numbers that differ");
+    };
+    if (d.type == GLIMMER_EQUIRECTANGULAR || d.type == GLIMMER_CYLINDRICAL)
+        differ(d.longitude, 3600, "camera: longitude");
+    if (d.type == GLIMMER_EQUIRECTANGULAR)
+        differ(d.latitude, 90, "camera: latitude");
+    if (d.type == GLIMMER_CYLINDRICAL)
+        differ(d.elevation, 1e6, "camera: elevation");
+    if (!(d.fisheye_fov > 0 && d.fisheye_fov <= 3600))
+        fail_argument("camera: fisheye_fov is " + text(d.fisheye_fov) + "; allowed: above 0, 3600 at most");
+    if (!(d.focal_length >= 1e-6 && d.focal_length <= 1e6))
+        fail_argument("camera: focal_length is " + text(d.focal_length) + "; allowed: 1e-6 to 1e6");
+    for (const double v : d.polynomial)
+        check_range(v, -1e6, 1e6, "camera: polynomial");
+    if (d.lens_radius > d.focus_distance)
+        fail_argument("camera: lens_radius is " + text(d.lens_radius) + "; allowed for a panorama: focus_distance, " +
+                      text(d.focus_distance) + ", at most");
 }
 
 static std::vector<Affine> camera_motion(const glimmer_camera_desc &d) {
@@ -432,12 +481,12 @@ glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_came
         glimmer_camera_init(&defaults);
         const glimmer_camera_desc d = checked_desc(desc, defaults, "camera");
         check_rigid(d.to_world, "camera: to_world");
-        if (uint32_t(d.type) > GLIMMER_ORTHOGRAPHIC)
-            fail_argument("camera: type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 1");
-        const bool perspective = d.type == GLIMMER_PERSPECTIVE;
+        if (uint32_t(d.type) > GLIMMER_CYLINDRICAL)
+            fail_argument("camera: type " + std::to_string(int(d.type)) + " is not known; allowed: 0 to 8");
+        const bool perspective = d.type == GLIMMER_PERSPECTIVE, orthographic = d.type == GLIMMER_ORTHOGRAPHIC;
         if (perspective && !(d.fov_x > 0 && d.fov_x < 180))
             fail_argument("camera: fov_x is " + text(d.fov_x) + "; allowed: above 0, below 180 degrees");
-        if (!perspective && !(d.width > 0 && d.width <= kLongest))
+        if (orthographic && !(d.width > 0 && d.width <= kLongest))
             fail_argument("camera: width is " + text(d.width) + "; allowed: above 0, " + text(kLongest) + " at most");
         for (double v : d.shift)
             check_finite(v, "camera: shift");
@@ -445,7 +494,10 @@ glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_came
         check_least(d.focus_distance, 0, "camera: focus_distance");
         if (d.lens_radius > 0 && d.focus_distance == 0)
             fail_argument("camera: focus_distance is 0; a lens with a radius needs one above 0");
-        if (perspective)
+        if (!perspective && !orthographic)
+            check_panorama(d);
+        check_stereo(d);
+        if (!orthographic)
             check_least(d.clip_start, 0, "camera: clip_start");
         else
             check_range(d.clip_start, -kLongest, kLongest, "camera: clip_start");

@@ -6,6 +6,7 @@
 
 #include "camera/camera_motion.h"
 #include "camera/orthographic.h"
+#include "camera/panoramic.h"
 #include "camera/perspective.h"
 
 #include <variant>
@@ -44,16 +45,18 @@ class Camera {
     }
 
   public:
-    using Kind = std::variant<PerspectiveCamera, OrthographicCamera>;
+    using Kind = std::variant<PerspectiveCamera, OrthographicCamera, PanoramicCamera>;
 
     Camera() = default;
     Camera(const PerspectiveCamera &camera) : kind_(camera) {}
     Camera(const OrthographicCamera &camera) : kind_(camera) {}
+    Camera(const PanoramicCamera &camera) : kind_(camera) {}
 
     void set_motion(CameraMotion motion) { motion_ = std::move(motion); }
     bool moves() const { return !motion_.empty(); }
 
-    /// The ray through a point of the film (x right, y down, both 0 to 1) and a point of the lens (unit disk).
+    /// The ray through a point of the film (x right, y down, both 0 to 1) and a point of the lens (unit disk); blind
+    /// where nothing is seen there.
     CameraRay generate(Vec2f film, Vec2f lens, ShutterTime time) const {
         return at(time, [&](const auto &c, const auto &place) {
             CameraRay out = c.generate(film, lens, time);
@@ -62,7 +65,9 @@ class Camera {
         });
     }
 
-    /// The inverse: where a point is seen from a point of the lens (unit disk); nothing behind the clipping planes.
+    /// The inverse: where a point is seen from a point of the lens; nothing behind the clipping planes. Of a lens:
+    /// uniform points of the unit disk stand for all rays through the point. Panoramas may see it elsewhere too, see
+    /// for_each_place.
     std::optional<Projection> project(const Vec3f &x, Vec2f lens, ShutterTime time) const {
         return at(time, [&](const auto &c, const auto &place) {
             std::optional<Projection> out = c.project(from(x, place), lens);
@@ -70,6 +75,21 @@ class Camera {
                 move(out->start, place);
             return out;
         });
+    }
+
+    /// function(film) for every place of the film where what project has found at `film` is seen. False for
+    /// is_invertible: these are not all. margin: what filters add to the film.
+    template <class Function>
+    void for_each_place(Vec2f film, const Function &function) const {
+        visit([&](const auto &c) { c.for_each_place(film, function); });
+    }
+    bool is_invertible(Vec2f margin) const {
+        return visit([&](const auto &c) { return c.is_invertible(margin); });
+    }
+
+    /// Whether generate's rays may be blind.
+    bool has_blind_places() const {
+        return visit([](const auto &c) { return c.has_blind_places(); });
     }
 
     /// Whether generate and project look at `lens` at all.
@@ -107,7 +127,7 @@ class Camera {
         return visit([&](const auto &c) { return c.distance(x); });
     }
 
-    /// Along the axis.
+    /// Along the axis; of a panoramic camera the distance.
     float depth(const Vec3f &x, ShutterTime time) const {
         return at(time, [&](const auto &c, const auto &place) { return c.depth(from(x, place)); });
     }

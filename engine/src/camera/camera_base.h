@@ -3,9 +3,11 @@
 #pragma once
 
 #include "geometry/ray.h"
+#include "math/constants.h"
 #include "math/vec.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace glimmer {
@@ -13,6 +15,10 @@ namespace glimmer {
 struct CameraRay {
     Ray ray;                   ///< t_max: the far clipping plane along this ray
     uint32_t pixel_x, pixel_y; ///< of the whole picture
+
+    /// Of a place of the film that sees nothing, black: a ray that meets nothing.
+    static CameraRay blind(const Vec3f &direction, ShutterTime time) { return {{{}, direction, time, -1}, 0, 0}; }
+    bool is_blind() const { return ray.t_max < 0; }
 };
 
 /// A point as the camera sees it.
@@ -49,6 +55,32 @@ struct PointOnRay {
     float t, pdf;
 };
 
+/// One eye of a pair whose head turns to every direction, about the camera's own upright axis in a panorama, else the
+/// world's: rays start beside the camera, and meet those of the other eye at `convergence`. Up and down, where the head
+/// cannot turn, the eyes come together.
+struct SphericalStereo {
+    float offset = 0;                       ///< to the right, a length; below 0 to the left; 0: no stereo
+    float convergence = kInfinity;          ///< distance; infinite: parallel
+    float merge_from = kPi, merge_to = kPi; ///< heights above the horizon, in radians, between which they come together
+
+    /// axis: unit, the one that the head turns about.
+    void apply(Vec3f &origin, Vec3f &direction, const Vec3f &axis) const {
+        const float height = std::abs(std::asin(std::clamp(dot(direction, axis), -1.0f, 1.0f)));
+        float left = offset;
+        if (height > merge_to)
+            left = 0;
+        else if (height > merge_from)
+            left *= std::cos((height - merge_from) / (merge_to - merge_from) * (kPi / 2));
+        const Vec3f side = cross(direction, axis);
+        if (!(length_squared(side) > 0))
+            return;
+        const Vec3f moved = normalize(side) * left;
+        origin += moved;
+        if (convergence < kInfinity)
+            direction = normalize(direction * convergence - moved);
+    }
+};
+
 /// A frame at the scene's origin, where the camera stands; the part of the image plane that the film shows; a round
 /// lens about the origin; two clipping planes across the axis.
 struct CameraBase {
@@ -58,9 +90,18 @@ struct CameraBase {
     Vec2f shift;                                          ///< in widths
     float lens_radius = 0, focus_distance = 0;            ///< lengths; the distance is along the axis
     float clip_start = 0, clip_end = kInfinity;           ///< lengths along the axis
+    SphericalStereo stereo;                               ///< not of an orthographic camera
 
     bool has_lens() const { return lens_radius > 0; }
     float depth(const Vec3f &x) const { return dot(x, forward); }
+
+    /// function(film) for each place of the film where what is seen at `film` is seen.
+    template <class Function>
+    void for_each_place(Vec2f film, const Function &function) const {
+        function(film);
+    }
+    bool is_invertible(Vec2f) const { return stereo.offset == 0; }
+    bool has_blind_places() const { return false; }
 
     /// From a point of the unit disk.
     Vec3f lens_point(Vec2f lens) const { return (right * lens.x + up * lens.y) * lens_radius; }

@@ -22,7 +22,9 @@ struct PerspectiveCamera : CameraBase {
             along = pinhole - origin / focus_distance;
         }
         const float inv_cosine = length(along);
-        const Vec3f direction = along / inv_cosine;
+        Vec3f direction = along / inv_cosine;
+        if (stereo.offset != 0)
+            stereo.apply(origin, direction, {0, 0, 1});
         origin += direction * (clip_start * inv_cosine);
         return {{origin, direction, time, (clip_end - clip_start) * inv_cosine}, 0, 0};
     }
@@ -88,7 +90,7 @@ struct PerspectiveCamera : CameraBase {
     StartRegion start_region() const {
         const float x = (1 + 2 * std::abs(shift.x)) * half_width, y = (aspect + 2 * std::abs(shift.y)) * half_width;
         const float lean = has_lens() ? lens_radius / focus_distance : 0;
-        return {Vec3f(), lens_radius + clip_start * (std::sqrt(1 + x * x + y * y) + lean)};
+        return {Vec3f(), lens_radius + std::abs(stereo.offset) + clip_start * (std::sqrt(1 + x * x + y * y) + lean)};
     }
 };
 

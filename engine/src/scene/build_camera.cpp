@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The camera, the film and its filter.
+#include "scene/build_camera.h"
+
 #include "base/error.h"
 #include "scene/builder.h"
 
@@ -21,10 +23,24 @@ CameraBase camera_base(const glimmer_camera_desc &c, const Affine &to_world, flo
     camera.focus_distance = float(c.focus_distance);
     camera.clip_start = float(c.clip_start);
     camera.clip_end = float(c.clip_end);
+    if (c.type != GLIMMER_ORTHOGRAPHIC)
+        camera.stereo = {float(c.stereo_offset), float(c.stereo_convergence),
+                         float(c.stereo_merge[0] * kPiDouble / 180), float(c.stereo_merge[1] * kPiDouble / 180)};
     return camera;
 }
 
-Camera make_camera(const glimmer_camera_desc &c, const Affine &to_world, float aspect) {
+/// What the filter adds to the film at each side, as a part of its width and height.
+Vec2f filter_margin(const FilmSettings &film) {
+    const float margin = 0.5f * (film.filter.width() - 1);
+    return {margin / float(film.width), margin / float(film.height)};
+}
+
+Camera make_camera(const glimmer_camera_desc &c, const Affine &to_world, const FilmSettings &film) {
+    const float aspect = float(film.height) / float(film.width);
+    if (c.type > GLIMMER_ORTHOGRAPHIC) {
+        const Panorama panorama = make_panorama(c, film);
+        return PanoramicCamera{camera_base(c, to_world, aspect, panorama.angle_per_width(aspect) / 2), panorama};
+    }
     if (c.type == GLIMMER_ORTHOGRAPHIC)
         return OrthographicCamera{camera_base(c, to_world, aspect, c.width / 2)};
     return PerspectiveCamera{camera_base(c, to_world, aspect, std::tan(c.fov_x * kPiDouble / 360))};
@@ -40,6 +56,25 @@ CameraMotion make_motion(const std::vector<Affine> &motion, const Vec3d &origin)
 
 } // namespace
 
+Panorama make_panorama(const glimmer_camera_desc &c, const FilmSettings &film) {
+    constexpr double kDegree = kPiDouble / 180;
+    Panorama p;
+    p.type = PanoramaType(int(c.type) - int(GLIMMER_EQUIRECTANGULAR));
+    p.window = {{float(c.window[0]), float(c.window[1])}, {float(c.window[2]), float(c.window[3])}};
+    p.aspect =
+        float(double(film.height) / double(film.width) * (c.window[2] - c.window[0]) / (c.window[3] - c.window[1]));
+    for (int i = 0; i < 2; ++i) {
+        p.longitude[i] = float(c.longitude[i] * kDegree);
+        p.latitude[i] = float(c.type == GLIMMER_CYLINDRICAL ? c.elevation[i] : c.latitude[i] * kDegree);
+    }
+    p.half_angle = float(c.fisheye_fov * kDegree / 2);
+    p.focal_length = float(c.focal_length);
+    for (size_t i = 0; i < p.polynomial.size(); ++i)
+        p.polynomial[i] = float(c.polynomial[i]);
+    p.reach = p.farthest(filter_margin(film));
+    return p;
+}
+
 void SceneBuilder::build_camera_and_film() {
     if (!description_.camera)
         fail_state("the scene has no camera; set one before commit");
@@ -51,9 +86,6 @@ void SceneBuilder::build_camera_and_film() {
     const std::vector<Affine> &motion = description_.camera_motion;
     const Affine to_world = motion.empty() ? affine_from_rows(c.to_world) : motion[motion.size() / 2];
     scene_.origin = origin_ = to_world.translation;
-    scene_.camera = make_camera(c, to_world, float(f.height) / float(f.width));
-    if (!motion.empty())
-        scene_.camera.set_motion(make_motion(motion, origin_));
 
     FilmSettings &film = scene_.film;
     film.width = f.width;
@@ -69,6 +101,11 @@ void SceneBuilder::build_camera_and_film() {
     film.mist_start = f.mist_start, film.mist_depth = f.mist_depth, film.mist_falloff = f.mist_falloff;
     if (f.filter == GLIMMER_BLACKMAN_HARRIS)
         film.filter = PixelFilter::blackman_harris(f.filter_width);
+
+    scene_.camera = make_camera(c, to_world, film);
+    scene_.camera_is_invertible = scene_.camera.is_invertible(filter_margin(film));
+    if (!motion.empty())
+        scene_.camera.set_motion(make_motion(motion, origin_));
 }
 
 } // namespace glimmer

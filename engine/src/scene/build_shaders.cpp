@@ -2,6 +2,7 @@
 // Materials and skies of which shader programs give something.
 #include "base/error.h"
 #include "math/constants.h"
+#include "scene/build_camera.h"
 #include "scene/builder.h"
 #include "shading/material_tree.h"
 
@@ -93,9 +94,14 @@ CameraFrame SceneBuilder::camera_frame() const {
     frame.to_camera = {Vec3f(to_world.linear.column(0)), Vec3f(to_world.linear.column(1)),
                        -Vec3f(to_world.linear.column(2))};
     frame.position = Vec3f(to_world.translation);
+    frame.aspect = float(scene_.film.height) / float(scene_.film.width);
+    if (c.type > GLIMMER_ORTHOGRAPHIC) {
+        frame.set_panorama(make_panorama(c, scene_.film));
+        frame.half_width = 0.5f;
+        return frame;
+    }
     frame.orthographic = c.type == GLIMMER_ORTHOGRAPHIC;
     frame.half_width = frame.orthographic ? float(c.width / 2) : float(std::tan(c.fov_x * kPiDouble / 360));
-    frame.aspect = float(scene_.film.height) / float(scene_.film.width);
     frame.shift = {float(c.shift[0]), float(c.shift[1])};
     return frame;
 }

@@ -45,6 +45,7 @@ class Scene {
     Interaction interaction(const Ray &ray, const Hit &hit) const;
 
     Camera camera;
+    bool camera_is_invertible = true; ///< all places of the film where a point is seen are known
     Vec3d origin; ///< of all coordinates here, in the caller's
     FilmSettings film;
     Materials materials;

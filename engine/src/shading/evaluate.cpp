@@ -371,6 +371,10 @@ class Evaluation {
             if (!g_.camera)
                 return {};
             const Vec3f p = to_camera(g_.object ? g_.position + d : g_.position + g_.camera->position);
+            if (g_.camera->panorama) {
+                const Vec2f place = g_.camera->panorama->place(safe_normalize(g_.camera->in_panorama(p)));
+                return {place.x, place.y, 0};
+            }
             const float across = 2 * g_.camera->half_width * (g_.camera->orthographic ? 1 : p.z);
             if (across == 0)
                 return {};

@@ -2,11 +2,13 @@
 // What a shader program may ask about the place that it is evaluated at.
 #pragma once
 
+#include "camera/panorama.h"
 #include "math/vec.h"
 #include "shading/arrival.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace glimmer {
@@ -36,6 +38,17 @@ struct CameraFrame {
     bool orthographic = false;
     float half_width = 1, aspect = 1; ///< half the picture's width, at depth 1 or, if orthographic, anywhere
     Vec2f shift;
+    std::optional<Panorama> panorama; ///< then half_width is 1/2, and there is no shift
+
+    /// The axes of panoramas are as in Cycles: forward, left, up; a mirror ball's right, back, up.
+    void set_panorama(const Panorama &kind) {
+        panorama = kind;
+        const auto [right, up, forward] = to_camera;
+        to_camera = is_ball() ? std::array{right, -forward, up} : std::array{forward, -right, up};
+    }
+    /// From these to right, up, forward.
+    Vec3f in_panorama(const Vec3f &p) const { return is_ball() ? Vec3f(p.x, p.z, -p.y) : Vec3f(-p.y, p.z, p.x); }
+    bool is_ball() const { return panorama->type == PanoramaType::mirror_ball; }
 };
 
 struct ShaderGlobals {

@@ -109,6 +109,13 @@ float ShaderScene::pixel_at(const Vec3f &from_camera) const {
     const float away = length(from_camera);
     if (camera.orthographic)
         return pixel_width;
+    if (camera.panorama) {
+        if (!(away > 0))
+            return 0;
+        const Vec3f seen{x, y, dot(camera.to_camera[2], from_camera)};
+        return away * pixel_width *
+               std::sqrt(camera.panorama->solid_angle(camera.in_panorama(seen) / away) / camera.aspect);
+    }
     return away > 0 ? pixel_width * 0.5f * (std::hypot(depth, x) + std::hypot(depth, y)) / away * depth : 0;
 }
 

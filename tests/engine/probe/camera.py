@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from tests.engine.probe.call import Array, call, empty, f32
 
-PERSPECTIVE, ORTHOGRAPHIC = range(2)
+PERSPECTIVE, ORTHOGRAPHIC, PANORAMIC = range(3)
+EQUIRECTANGULAR, EQUIDISTANT, EQUISOLID, POLYNOMIAL, MIRROR_BALL, CUBE_FACE, CYLINDRICAL = range(7)
 
 
 class _Camera(ctypes.Structure):
@@ -22,6 +23,12 @@ class _Camera(ctypes.Structure):
         ("aspect", ctypes.c_float),
         ("shift", ctypes.c_float * 2),
         *((name, ctypes.c_float) for name in ("lens_radius", "focus_distance", "clip_start", "clip_end")),
+        ("panorama", ctypes.c_int32),
+        ("longitude", ctypes.c_float * 2),
+        ("latitude", ctypes.c_float * 2),
+        *((name, ctypes.c_float) for name in ("half_angle", "focal_length")),
+        ("polynomial", ctypes.c_float * 5),
+        ("window", ctypes.c_float * 4),
     )
 
 
@@ -36,6 +43,13 @@ class Camera:
     focus_distance: float = 1.0
     clip_start: float = 0.0
     clip_end: float = float("inf")
+    panorama: int = 0
+    longitude: tuple[float, float] = (-np.pi, np.pi)
+    latitude: tuple[float, float] = (-np.pi / 2, np.pi / 2)
+    half_angle: float = np.pi / 2
+    focal_length: float = 0.3
+    polynomial: tuple[float, ...] = (0.0, np.pi, 0.0, 0.0, 0.0)
+    window: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
 
     def made(self) -> Any:
         c = _Camera(self.type)
@@ -48,6 +62,9 @@ class Camera:
             self.focus_distance,
         )
         c.shift[:], c.clip_start, c.clip_end = self.shift, self.clip_start, self.clip_end
+        c.panorama, c.half_angle, c.focal_length = self.panorama, self.half_angle, self.focal_length
+        c.longitude[:], c.latitude[:], c.polynomial[:] = self.longitude, self.latitude, self.polynomial
+        c.window[:] = self.window
         return ctypes.byref(c)
 
 
@@ -64,6 +81,24 @@ def generate(camera: Camera, film: ArrayLike, lens: ArrayLike) -> Array:
     rays = empty(n, 7)
     call("probe_camera_generate", camera.made(), points, f32(lens, n, 2), np.uint64(n), rays)
     return rays
+
+
+def is_seeing(camera: Camera, film: ArrayLike) -> Array:
+    points = f32(film)
+    seeing = empty(len(points), kind=np.int32)
+    call("probe_camera_is_seeing", camera.made(), points, np.uint64(len(points)), seeing)
+    return seeing == 1
+
+
+def places(camera: Camera, film: ArrayLike) -> Array:
+    """(n, 2): all places of the film where what is seen at one is seen."""
+    found = empty(64, 2)
+    count = call("probe_camera_places", camera.made(), f32(film), np.uint64(len(found)), found, returns=ctypes.c_uint64)
+    return found[:count]
+
+
+def is_invertible(camera: Camera) -> bool:
+    return bool(call("probe_camera_is_invertible", camera.made(), returns=ctypes.c_int32))
 
 
 def project(camera: Camera, x: ArrayLike, lens: ArrayLike) -> Projected:

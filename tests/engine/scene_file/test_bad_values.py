@@ -102,6 +102,21 @@ BAD = [
         {"type": "orthographic", "to_world": scenes.IDENTITY, "width": 0},
         "camera.width: 0 is not a number above 0",
     ),
+    Bad(
+        ("camera",),
+        {"type": "mirror_ball", "to_world": scenes.IDENTITY, "shift": [0, 0]},
+        'camera: unknown key "shift"; allowed here are type,',
+    ),
+    Bad(
+        ("camera",),
+        {"type": "fisheye_polynomial", "to_world": scenes.IDENTITY},
+        'camera: the key "polynomial" is missing',
+    ),
+    Bad(
+        ("camera",),
+        {"type": "equirectangular", "to_world": scenes.IDENTITY, "latitude": [0, 91]},
+        "camera: latitude",
+    ),
     # programs
     Bad(("programs",), {"p": 1}, "programs.p: 1 is not an object {...}"),
     Bad(("programs",), program({"op": "wood"}), 'programs.p.steps[0].op: "wood" is not an operation; operations are'),

@@ -124,6 +124,18 @@ ORTHOGRAPHIC_MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
 ]
 
 
+# A number that differs from those of panorama(), by camera type and key.
+PANORAMA_KEYS: dict[str, dict[str, Any]] = {
+    "equirectangular": {"longitude": [-100, 90], "latitude": [-70, 50]},
+    "cylindrical": {"longitude": [-100, 90], "elevation": [-1, 0.9]},
+    "fisheye_equidistant": {"fov": 120},
+    "fisheye_equisolid": {"fov": 70, "focal_length": 0.4},
+    "fisheye_polynomial": {"fov": 70, "polynomial": [0.1, 2, 0.1, 0.1, 0.1]},
+    "mirror_ball": {},
+    "cube_face": {},
+}
+
+
 def all_layers(folder: Path, content: Scene) -> dict[str, NDArray[Any]]:
     options = ("--spp", 4, "--aov", "object_index,material_index,normal,depth")
     return scenes.render(folder, content, *options).channels
@@ -146,6 +158,26 @@ def test_every_value_of_an_orthographic_camera_means_something(tmp_path: Path) -
     del base["medium"], base["camera"]["fov_x"]
     base["camera"].update(type="orthographic", width=8)
     check_meanings(tmp_path, base, ORTHOGRAPHIC_MEANINGS)
+
+
+@pytest.mark.parametrize("kind", PANORAMA_KEYS)
+def test_every_value_of_a_panorama_means_something(kind: str, tmp_path: Path) -> None:
+    base = every_key(tmp_path)
+    base["film"].update(width=32, height=24, crop=[0, 0, 32, 24])
+    camera = base["camera"]
+    del base["medium"], camera["fov_x"], camera["shift"]
+    camera.update(type=kind, window=[0, 0, 1, 0.9])
+    needed = {"fisheye_equisolid": {"focal_length": 0.3}, "fisheye_polynomial": {"polynomial": [0, 2, 0, 0, 0]}}
+    camera.update(needed.get(kind, {}))
+    check_meanings(
+        tmp_path,
+        base,
+        [
+            (("camera", "window"), [0.1, 0, 1, 1]),
+            *((("camera", key), value) for key, value in PANORAMA_KEYS[kind].items()),
+            *(m for m in MEANINGS if m[0][0] == "camera" and m[0][1] not in ("fov_x", "shift")),
+        ],
+    )
 
 
 def test_every_value_of_an_interior_means_something(tmp_path: Path) -> None:

@@ -25,7 +25,8 @@ class PathIntegrator final : public Integrator {
         if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
             light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_, (passes & kLightGroupPasses) != 0);
         plan_ = plan_splitting(scene, flags);
-        plan_.pixel_ris = plan_.pixel_ris && around_camera_.empty() && !rays_start_apart() && limits.depth > 0;
+        plan_.pixel_ris = plan_.pixel_ris && !scene.camera.has_blind_places() && around_camera_.empty() &&
+                          !rays_start_apart() && limits.depth > 0;
         needed_ = needed_by(scene, flags, light_vertices_.cache != nullptr, passes);
         KernelFeatures all = kAllFeatures;
         all.passes = needed_.passes;
@@ -52,8 +53,10 @@ class PathIntegrator final : public Integrator {
         const float primary_weight = 1 / float(1 + extra_rays);
         const PathContext context{scene_,         limits_,        flags_,         plan_, light_vertices,
                                   camera.pixel_x, camera.pixel_y, primary_weight, parts};
+        // Where a ray sees nothing its pixel may see something elsewhere: splats and emitter rays.
         FilmSample result =
-            rays_start_apart()
+            camera.is_blind() ? FilmSample()
+            : rays_start_apart()
                 ? kernel_->sample(context, camera.ray,
                                   dielectrics_at(scene_, camera.ray.origin, camera.ray.time, RayKind::camera), sampler,
                                   trace)

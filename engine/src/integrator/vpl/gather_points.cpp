@@ -13,7 +13,10 @@ std::vector<Vec3f> sample_gather_points(const Scene &scene, const Rectangle &pix
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t x = pick_pixel(pixels.x, pixels.width, sampler.next_1d()),
                        y = pick_pixel(pixels.y, pixels.height, sampler.next_1d());
-        const Ray ray = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d(), time).ray;
+        const CameraRay camera = sample_camera_ray(scene, x, y, sampler.next_2d(), sampler.next_2d(), time);
+        if (camera.is_blind())
+            continue;
+        const Ray &ray = camera.ray;
         const auto hit = scene.accel->intersect(ray, RayKind::camera);
         ++rays.rays;
         const float u_channel = scene.medium->monochromatic() ? 0 : sampler.next_1d();

@@ -64,6 +64,8 @@ const char *reason_against(const Scene &scene, const DepthLimits &limits, const 
         return "max_depth is below 2 or max_scatter below 1";
     if (!around_camera.empty())
         return "the camera is inside glass";
+    if (!scene.camera_is_invertible)
+        return "the camera sees directions several times";
     if (has_narrow_peak(scene.medium->phase()))
         return "the fog's anisotropy is outside -0.6 to 0.9";
     if (is_dense_and_white(scene))

@@ -37,34 +37,37 @@ void splat_point(const Scene &scene, const Vec3f &x, const SubpathSegment &segme
     if (!seen)
         return;
     const FilmSettings &film = scene.film;
-    const float u = seen->film.x * float(film.width), v = seen->film.y * float(film.height);
     const float half = 0.5f * film.filter.width();
-    // The pixels whose filter may hold the point.
-    const float left = std::max(std::floor(u - half), float(film.crop_x)),
-                right = std::min(u + half, float(film.crop_x + film.crop_width) - 0.5f),
-                top = std::max(std::floor(v - half), float(film.crop_y)),
-                bottom = std::min(v + half, float(film.crop_y + film.crop_height) - 0.5f);
-    if (!(left <= right && top <= bottom))
-        return;
     const Ray way{seen->start, seen->direction, time, seen->t};
     const float pixel_area = seen->area(float(film.width) * float(film.height)); // if the filter were a point
-    const Rgb radiance = power * scene.medium->transmittance(way, seen->t) *
-                         (scene.medium->phase().eval(seen->direction, -direction) *
-                          splat_fraction(camera.footprint(seen->t), seen->direction, direction, settings) / pixel_area);
-    if (is_black(radiance))
-        return;
-    std::optional<Rgb> arriving;
-    for (float py = top; py <= bottom; ++py)
-        for (float px = left; px <= right; ++px) {
-            const float weight = film.filter.density(u - px - 0.5f) * film.filter.density(v - py - 0.5f);
-            if (!(weight > 0))
-                continue;
-            if (!arriving)
-                arriving = radiance * visibility(scene, way, RayKind::camera, rays);
-            if (is_black(*arriving))
-                return;
-            out.push_back({uint32_t(px), uint32_t(py), *arriving * weight, segment.group});
+    std::optional<Rgb> arriving; // found out where the first pixel asks for it
+    const auto found = [&]() -> const Rgb & {
+        if (!arriving) {
+            arriving = power * scene.medium->transmittance(way, seen->t) *
+                       (scene.medium->phase().eval(seen->direction, -direction) *
+                        splat_fraction(camera.footprint(seen->t), seen->direction, direction, settings) / pixel_area);
+            if (!is_black(*arriving))
+                *arriving *= visibility(scene, way, RayKind::camera, rays);
         }
+        return *arriving;
+    };
+    camera.for_each_place(seen->film, [&](Vec2f place) {
+        const float u = place.x * float(film.width), v = place.y * float(film.height);
+        // The pixels whose filter may hold the point.
+        const float left = std::max(std::floor(u - half), float(film.crop_x)),
+                    right = std::min(u + half, float(film.crop_x + film.crop_width) - 0.5f),
+                    top = std::max(std::floor(v - half), float(film.crop_y)),
+                    bottom = std::min(v + half, float(film.crop_y + film.crop_height) - 0.5f);
+        for (float py = top; py <= bottom; ++py)
+            for (float px = left; px <= right; ++px) {
+                const float weight = film.filter.density(u - px - 0.5f) * film.filter.density(v - py - 0.5f);
+                if (!(weight > 0))
+                    continue;
+                if (is_black(found()))
+                    return;
+                out.push_back({uint32_t(px), uint32_t(py), *arriving * weight, segment.group});
+            }
+    });
 }
 
 } // namespace
