@@ -70,6 +70,7 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
         crop=crop,
         exposure=film_exposure(scene),
         mist=_mist(scene.world),
+        occlusion_distance=10.0 if scene.world is None else scene.world.light_settings.distance,
         **filter_settings(scene.glimmer),
         **transparency(scene),
     )

@@ -7,8 +7,8 @@ the node. Nothing turns black or vanishes for that.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from math import log
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from ..scene.description import (
     WHITE,
     Conductor,
     Glass,
+    Holdout,
     Lambert,
     Light,
     Material,
@@ -85,9 +86,10 @@ def export_material(
     notices: Notices,
     images: Images | None = None,
     constants_only: bool = False,
+    aovs: tuple[Aov, ...] = (),
 ) -> NamedMaterial:
     """object_name: the first object that uses it, for notices. version: Blender's. constants_only: what varies
-    becomes a constant."""
+    becomes a constant. aovs: the first is the engine's number 1."""
     if material is None:
         return NamedMaterial("default", DEFAULT_SURFACE)
     where = place(object_name, material.name)
@@ -96,14 +98,17 @@ def export_material(
     shaders = _Shaders(material, where, version, notices, images)
     shaders.nodes.constants_only = constants_only
     result = shaders.output()
+    given = shaders.aovs(aovs)
+    if given and isinstance(result, Null):
+        result = Transparent(WHITE)  # what is not there gives nothing
     has_normal = not isinstance(result, (Light, Null))
     volume = shaders.volume()
     try:
-        (named, normal), program = programmed((result, shaders.normal if has_normal else None))
+        (named, normal, shown), program = programmed((result, shaders.normal if has_normal else None, given))
     except TooLargeError as error:
         notices.add(where, f"its nodes cannot be rendered, since {error}; its viewport colour is used")
         return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index, volume=volume)
-    return NamedMaterial(material.name_full, named, material.pass_index, program, normal, volume)
+    return NamedMaterial(material.name_full, named, material.pass_index, program, normal, volume, shown)
 
 
 def export_volume(
@@ -131,6 +136,27 @@ def _rgb(color: Any) -> Rgb:
 
 def _clipped(color: Rgb) -> Rgb:
     return (min(max(color[0], 0.0), 1.0), min(max(color[1], 0.0), 1.0), min(max(color[2], 0.0), 1.0))
+
+
+@dataclass(frozen=True)
+class Aov:
+    """A shader AOV of a view layer."""
+
+    name: str
+    is_color: bool  # else a number
+
+
+def _aov_nodes(tree: Any, groups: tuple[Any, ...]) -> Iterator[tuple[Any, tuple[Any, ...]]]:
+    """The AOV outputs of a tree and of the groups in it, and the groups that each stands in."""
+    for node in tree.nodes:
+        if node.bl_idname == "ShaderNodeOutputAOV" and not node.mute:
+            yield node, groups
+        elif node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None and not node.mute:
+            yield from _aov_nodes(node.node_tree, (*groups, node))
+
+
+def has_aovs(tree: bpy.types.NodeTree) -> bool:
+    return any(True for _ in _aov_nodes(tree, ()))
 
 
 class _Shaders:
@@ -166,6 +192,22 @@ class _Shaders:
             self.notices.add(self.where, "has no surface shader; it is black, as in Cycles")
             return Lambert(BLACK)
         return self.shader(surface)
+
+    def aovs(self, asked: tuple[Aov, ...]) -> tuple[tuple[int, Op], ...]:
+        """What the tree's AOV outputs give, by the engine's numbers."""
+        found: dict[int, Op] = {}
+        for node, groups in _aov_nodes(self.nodes.tree, ()):
+            name = getattr(node, "aov_name", "") or node.name
+            for i, aov in enumerate(asked):
+                if aov.name != name or i + 1 in found:
+                    continue
+                if aov.is_color:
+                    value: Number | Triple = self.nodes.varying_color(node, groups, "Color")
+                else:
+                    value = self.nodes.varying_number(node, groups, "Value")
+                shown = value if isinstance(value, tuple) else (value, 0.0, 0.0)
+                found[i + 1] = value if isinstance(value, Op) else op("combine", *shown)
+        return tuple(found.items())
 
     def volume(self, grids: dict[str, Grid] | None = None) -> Medium | None:
         """grids: of a volume object, which is filled with it by them."""
@@ -436,6 +478,9 @@ class _Shaders:
     def principled(self, source: Source) -> Material:
         return principled(self, source)
 
+    def holdout(self, source: Source) -> Material:
+        return Holdout()
+
     def mix(self, source: Source) -> Material:
         inputs = source.node.inputs
         factor = self.varying_number(source, inputs[0].name)
@@ -464,6 +509,7 @@ _SHADERS: dict[str, Callable[[_Shaders, Source], Material]] = {
     "ShaderNodeBsdfTransparent": _Shaders.transparent,
     "ShaderNodeBsdfTranslucent": _Shaders.translucent,
     "ShaderNodeBsdfRayPortal": _Shaders.portal,
+    "ShaderNodeHoldout": _Shaders.holdout,
     "ShaderNodeBsdfHairPrincipled": _Shaders.hair,
     "ShaderNodeBsdfSheen": _Shaders.sheen,
     "ShaderNodeBsdfVelvet": _Shaders.velvet,

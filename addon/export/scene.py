@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..film.passes import MOST_AOVS
 from ..scene.description import (
     BLACK,
     Add,
@@ -36,7 +37,7 @@ from .groups import with_groups
 from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
 from .instance_attributes import instance_attributes, property_of
 from .light import export_lamp
-from .material import export_material, export_volume
+from .material import Aov, export_material, export_volume, has_aovs
 from .mesh import export_mesh, flattened
 from .motion import (
     Motion,
@@ -170,6 +171,12 @@ class _Source:
         collector = _Collector(self.depsgraph, self.version, notices, self.constants_only, recording)
         if "uv" in seen.settings.passes:
             collector.shown_attributes = frozenset([ACTIVE_UV])
+        if any(name.startswith("aov_") for name in seen.settings.passes):
+            layer = self.depsgraph.view_layer_eval
+            world = scene.world
+            if world is not None and world.use_nodes and world.node_tree is not None and has_aovs(world.node_tree):
+                notices.add(f"world '{world.name}'", "AOV outputs of worlds are not supported; they are left out")
+            collector.aovs = tuple(Aov(aov.name, aov.type == "COLOR") for aov in layer.aovs)[:MOST_AOVS]
         for placed in self.placed():
             collector.add(placed)
         environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
@@ -256,6 +263,7 @@ class _Collector:
         self._constants_only = constants_only
         self.reads = True  # what takes time; else the notices alone are wanted
         self.shown_attributes: frozenset[str] = frozenset()  # of meshes, that passes show
+        self.aovs: tuple[Aov, ...] = ()  # that passes show
         self.objects: list[Object] = []
         self.spheres: list[Spheres] = []
         self.lights: list[Lamp] = []
@@ -599,6 +607,8 @@ class _Collector:
         if key not in self._material_numbers:
             self._material_numbers[key] = len(self.materials)
             self.materials.append(
-                export_material(material, object_name, self._version, self._notices, self.images, constants_only)
+                export_material(
+                    material, object_name, self._version, self._notices, self.images, constants_only, self.aovs
+                )
             )
         return self._material_numbers[key]

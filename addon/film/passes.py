@@ -93,6 +93,7 @@ OPTIONAL: tuple[RenderPass, ...] = (
     RenderPass("volume_indirect", "VolumeInd", "RGB", "COLOR", "Volume Indirect", cycles="use_pass_volume_indirect"),
     RenderPass("emit", "Emit", "RGB", "COLOR", "Emission", builtin="use_pass_emit"),
     RenderPass("environment", "Env", "RGB", "COLOR", "Environment", builtin="use_pass_environment"),
+    RenderPass("ambient_occlusion", "AO", "RGB", "COLOR", "Ambient Occlusion", builtin="use_pass_ambient_occlusion"),
     RenderPass("stderr", "Standard Error", "RGB", "COLOR", help="Standard error of the mean of every pixel"),
     RenderPass("albedo", "Albedo", "RGB", "COLOR", help="Colour of the first surface that is no mirror or glass"),
     RenderPass("emission", "Seen Emission", "RGB", "COLOR", help="Light seen directly, also through mirrors and glass"),
@@ -108,13 +109,12 @@ OPTIONAL: tuple[RenderPass, ...] = (
 )
 
 # The engine keeps so many.
-MOST_LEVELS, MOST_LIGHT_GROUPS = 16, 16
+MOST_LEVELS, MOST_LIGHT_GROUPS, MOST_AOVS = 16, 16, 8
 
 # Blender's and Cycles' switches of passes that there are none of, and what they are called.
 MISSING = {
     "use_pass_vector": "Vector",
     "use_pass_shadow": "Shadow",
-    "use_pass_ambient_occlusion": "Ambient Occlusion",
     "use_pass_subsurface_direct": "Subsurface Direct",
     "use_pass_subsurface_indirect": "Subsurface Indirect",
     "use_pass_subsurface_color": "Subsurface Color",
@@ -136,7 +136,7 @@ DENOISED_BY = ("albedo", "normal")  # what the engine is asked for besides the p
 def enabled(view_layer: object, is_denoised: bool = False) -> tuple[RenderPass, ...]:
     """The passes that a view layer asks for, combined first. is_denoised: the picture as it was rendered is one."""
     switched = (item for item in OPTIONAL if item.is_on(view_layer) or (is_denoised and item is NOISY))
-    return (COMBINED, *switched, *_mattes(view_layer), *_light_groups(view_layer))
+    return (COMBINED, *switched, *_mattes(view_layer), *_light_groups(view_layer), *_aovs(view_layer))
 
 
 def _mattes(view_layer: object) -> Iterable[RenderPass]:
@@ -158,6 +158,12 @@ def _light_groups(view_layer: object) -> Iterable[RenderPass]:
         yield RenderPass(f"light_group_{i + 1}", f"Combined_{name}", "RGB", "COLOR")
 
 
+def _aovs(view_layer: object) -> Iterable[RenderPass]:
+    for i, aov in enumerate(list(getattr(view_layer, "aovs", ()))[:MOST_AOVS]):
+        channels, kind = ("RGBA", "COLOR") if aov.type == "COLOR" else ("X", "VALUE")
+        yield RenderPass(f"aov_{i + 1}", aov.name, channels, kind)
+
+
 def missing(view_layer: object) -> list[str]:
     """The names of passes that a view layer asks for and that are not rendered."""
     cycles = getattr(view_layer, "cycles", None)
@@ -165,7 +171,8 @@ def missing(view_layer: object) -> list[str]:
     names += [name for switch, name in MISSING_OF_CYCLES.items() if getattr(cycles, switch, False)]
     groups = [group.name for group in getattr(view_layer, "lightgroups", ())]
     names += [f"light group '{name}' (of {MOST_LIGHT_GROUPS} at most)" for name in groups[MOST_LIGHT_GROUPS:]]
-    return names + [f"the shader AOV '{aov.name}'" for aov in getattr(view_layer, "aovs", ())]
+    aovs = [aov.name for aov in getattr(view_layer, "aovs", ())]
+    return names + [f"shader AOV '{name}' (of {MOST_AOVS} at most)" for name in aovs[MOST_AOVS:]]
 
 
 def engine_names(items: Iterable[RenderPass]) -> tuple[str, ...]:
@@ -223,6 +230,8 @@ class Reader:
         if item.matte:
             return self._matte(item)
         values = self.read(item.engine_name)
+        if item.channels == "X" and values.shape[-1] > 1:  # an AOV that is a number
+            return np.ascontiguousarray(values[..., :1])
         if item.color:
             return without_color(values, self.read(item.color))
         if item.engine_name == "material_index" and self.material_indices is not None:

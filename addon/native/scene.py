@@ -154,6 +154,7 @@ class NativeScene:
         desc.transparent = film.transparent
         if film.transparent_glass is not None:
             desc.transparent_glass = film.transparent_glass
+        desc.occlusion_distance = film.occlusion_distance
         desc.mist_start, desc.mist_depth, desc.mist_falloff = film.mist.start, film.mist.depth, film.mist.falloff
         self.library.call("glimmer_scene_set_film", self.handle, byref(desc))
 
@@ -330,6 +331,8 @@ class _MaterialAdder:
         number = self._add(item.name, item.material)
         if item.normal is not None:
             self._programs.bind(number, "normal", self._program, item.normal.index)
+        for slot, output in item.aovs:
+            self._programs.bind(number, f"aov_{slot}", self._program, output.index)
         return number
 
     def _add(self, name: str, material: d.Material) -> int:

@@ -303,6 +303,7 @@ class FilmDesc(ctypes.Structure):
         ("mist_start", c_float),
         ("mist_depth", c_float),
         ("mist_falloff", c_float),
+        ("occlusion_distance", c_float),
     ]
 
 

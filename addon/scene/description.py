@@ -67,6 +67,7 @@ class Film:
     transparent: bool = False  # the environment is not seen: alpha is 0 there
     transparent_glass: float | None = None  # GGX width of the glass through which that holds; None: of none
     mist: Mist = Mist()
+    occlusion_distance: float = 10.0  # of the ambient occlusion pass: what is farther does not count
 
     @property
     def window(self) -> tuple[int, int, int, int]:
@@ -327,9 +328,29 @@ class Null:
     TYPE: ClassVar[str] = "null"
 
 
+@dataclass(frozen=True)
+class Holdout:
+    """Black, and a hole where the camera sees it."""
+
+    TYPE: ClassVar[str] = "holdout"
+    emission: Color = BLACK
+
+
 # What scatters light, and may also emit.
 Surface = (
-    Lambert | Mirror | Conductor | Glass | Transparent | Translucent | Burley | Sheen | Subsurface | Mix | Add | Layer
+    Lambert
+    | Mirror
+    | Conductor
+    | Glass
+    | Transparent
+    | Translucent
+    | Burley
+    | Sheen
+    | Subsurface
+    | Mix
+    | Add
+    | Layer
+    | Holdout
 )
 Material = Surface | Light | Null
 
@@ -352,6 +373,7 @@ class NamedMaterial:
     program: Program | None = None  # what of the material varies
     normal: Output | None = None  # the shading normal, in the world
     volume: Medium | None = None  # what Blender fills the objects with that have the material
+    aovs: tuple[tuple[int, Output], ...] = ()  # what the engine's AOV passes show of it, which count from 1
 
 
 # ---- Media --------------------------------------------------------------------------------------------------------

@@ -104,6 +104,8 @@ class _Writer:
         result = _material(item.material, program)
         if item.normal is not None:
             result["normal"] = _parameter(item.normal, program)
+        if item.aovs:
+            result["aovs"] = {f"aov_{slot}": _parameter(output, program) for slot, output in item.aovs}
         return result
 
     def _program(self, name: str, program: Program) -> str:
@@ -266,6 +268,8 @@ def _film(film: d.Film) -> Json:
         result["transparent"] = True
     if film.transparent_glass is not None:
         result["transparent_glass"] = film.transparent_glass
+    if film.occlusion_distance != d.Film.occlusion_distance:
+        result["occlusion_distance"] = film.occlusion_distance
     if film.mist != d.Mist():
         result["mist"] = {"start": film.mist.start, "depth": film.mist.depth, "falloff": film.mist.falloff}
     return result

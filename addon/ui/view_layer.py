@@ -23,6 +23,8 @@ class GLIMMER_PT_passes(GlimmerPanel, bpy.types.Panel):
             drawn.add(item.switch)
             text = "Denoising Data" if item.switch == "denoising_store_passes" else item.name(LONG_NAMES)
             column.prop(owner, item.switch, text=text)
+        if context.view_layer.use_pass_ambient_occlusion and context.scene.world is not None:
+            self.layout.prop(context.scene.world.light_settings, "distance", text="Occlusion Distance")
 
 
 class GLIMMER_PT_cryptomatte(GlimmerPanel, bpy.types.Panel):
@@ -38,6 +40,20 @@ class GLIMMER_PT_cryptomatte(GlimmerPanel, bpy.types.Panel):
         for kind in cryptomatte.KINDS:
             column.prop(view_layer, f"use_pass_cryptomatte_{kind}", text=kind.capitalize())
         layout.prop(view_layer, "pass_cryptomatte_depth", text="Levels")
+
+
+class GLIMMER_PT_aovs(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Shader AOV"
+    bl_context = "view_layer"
+    bl_parent_id = "GLIMMER_PT_passes"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        view_layer, row = context.view_layer, self.layout.row()
+        row.template_list("VIEWLAYER_UL_aov", "aovs", view_layer, "aovs", view_layer, "active_aov_index", rows=3)
+        column = row.column(align=True)
+        column.operator("scene.view_layer_add_aov", icon="ADD", text="")
+        column.operator("scene.view_layer_remove_aov", icon="REMOVE", text="")
 
 
 class GLIMMER_PT_light_groups(GlimmerPanel, bpy.types.Panel):
@@ -74,6 +90,12 @@ class GLIMMER_PT_view_layer_override(GlimmerPanel, bpy.types.Panel):
             self.layout.prop(cycles, "use_layer_samples")
 
 
-_CLASSES = (GLIMMER_PT_passes, GLIMMER_PT_cryptomatte, GLIMMER_PT_light_groups, GLIMMER_PT_view_layer_override)
+_CLASSES = (
+    GLIMMER_PT_passes,
+    GLIMMER_PT_cryptomatte,
+    GLIMMER_PT_aovs,
+    GLIMMER_PT_light_groups,
+    GLIMMER_PT_view_layer_override,
+)
 
 register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -237,7 +237,9 @@ GLIMMER_API glimmer_result glimmer_scene_add_program(glimmer_scene *scene, const
                                                      uint32_t *program);
 /* From now on a parameter of a material is an output of a program, cut to the parameter's range wherever it is
    evaluated; the value that it was added with no longer counts. key: of a number or colour of the material's type (see
-   glimmer_parameter_info), or "normal", the shading normal in the world. Not for glass. */
+   glimmer_parameter_info), or "normal", the shading normal in the world. Not for glass. Or, of all, "aov_1", "aov_2",
+   ...: a number, colour or vector that GLIMMER_PASS_AOV and those behind it show as it is; of parts of mixes it is not
+   asked. */
 GLIMMER_API glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t material, const char *key,
                                               uint32_t program, uint32_t output);
 /* The environment's radiance is an output of a program, in place of glimmer_scene_set_environment. It is asked for
@@ -431,8 +433,8 @@ typedef struct glimmer_camera_desc {
     /* Spherical stereo, one eye of two whose head turns to every direction, about z, in a panorama about the camera's y
      * axis; not of orthographic cameras. Rays start `stereo_offset` to the right (below 0: left; 0, the default: no
      * stereo), and meet those of the other eye at the distance `stereo_convergence` (above 0; infinity, the default:
-     * nowhere). From stereo_merge[0] to [1] degrees above and below the horizon the offset falls to 0; default 180, 180:
-     * nowhere. */
+     * nowhere). From stereo_merge[0] to [1] degrees above and below the horizon the offset falls to 0; default 180,
+     * 180: nowhere. */
     double stereo_offset, stereo_convergence, stereo_merge[2];
 } glimmer_camera_desc;
 
@@ -455,6 +457,7 @@ typedef struct glimmer_film_desc {
     /* The mist pass: from 0 at `mist_start` from the camera to 1 `mist_depth` behind that, by the exponent
      * `mist_falloff`. Defaults 5, 25, 2. */
     float mist_start, mist_depth, mist_falloff;
+    float occlusion_distance; /* of the ambient occlusion pass, >= 0; default 10 */
 } glimmer_film_desc;
 
 GLIMMER_API void glimmer_film_init(glimmer_film_desc *desc);
@@ -528,10 +531,18 @@ typedef enum glimmer_pass {
     /* RGB: the part of the combined picture that is light from the lights of group 1, 2, ... GLIMMER_MAX_LIGHT_GROUPS.
      * With any of them, light in media comes by paths alone: slower, and the same mean. */
     GLIMMER_PASS_LIGHT_GROUP = 31,
-    GLIMMER_PASS_COUNT = 47
+    /* RGBA: what the materials of surfaces that the camera sees are bound to by "aov_1", "aov_2", ... GLIMMER_MAX_AOVS
+     * (a number in R), and the part of the pixel where they are; what is seen through adds up. See glimmer_scene_bind.
+     */
+    GLIMMER_PASS_AOV = 47,
+    /* RGB: the part of directions above a surface (by its cosine) where nothing is within the film's occlusion_distance
+     */
+    GLIMMER_PASS_AMBIENT_OCCLUSION = 55,
+    GLIMMER_PASS_COUNT = 56
 } glimmer_pass;
 #define GLIMMER_MATTE_RANKS 16
 #define GLIMMER_MAX_LIGHT_GROUPS 16
+#define GLIMMER_MAX_AOVS 8
 
 /* How the samples of a pixel become its value of a pass, and how pictures of several seeds are merged. */
 typedef enum glimmer_pass_rule {

@@ -10,6 +10,7 @@ import numpy as np
 from addon.film.passes import (
     ALPHA,
     COMBINED,
+    MOST_AOVS,
     MOST_LIGHT_GROUPS,
     OPTIONAL,
     Pixels,
@@ -35,6 +36,7 @@ def test_the_engine_has_every_pass_of_the_table(library_dir: Path) -> None:
 def _full_layer() -> Any:
     layer = _layer(use_pass_cryptomatte_object=True, use_pass_cryptomatte_material=True)
     layer.pass_cryptomatte_depth = 6
+    layer.aovs = [SimpleNamespace(name=f"aov {i}", type="COLOR") for i in range(MOST_AOVS)]
     layer.lightgroups = [SimpleNamespace(name=f"group {i}") for i in range(MOST_LIGHT_GROUPS)]
     return layer
 
@@ -63,9 +65,9 @@ def test_light_brings_its_color_along() -> None:
 def test_passes_that_are_not_there_are_named() -> None:
     layer = _layer(use_pass_vector=True)
     layer.cycles.use_pass_shadow_catcher = True
-    layer.aovs.append(SimpleNamespace(name="Rust"))
+    layer.aovs.extend(SimpleNamespace(name=f"Rust {i}", type="COLOR") for i in range(9))
     assert missing(_layer()) == []
-    assert missing(layer) == ["Vector", "Shadow Catcher", "the shader AOV 'Rust'"]
+    assert missing(layer) == ["Vector", "Shadow Catcher", "shader AOV 'Rust 8' (of 8 at most)"]
 
 
 def test_names_are_blenders_of_the_version() -> None:

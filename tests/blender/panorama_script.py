@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Panoramas and stereo pairs of a world that shows directions, and of bodies that show where they are seen, by Cycles
 and Glimmer in turn: panorama_script.py FOLDER. Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (height, width,
-3), without noise.
+3), and the pairs as NAME.ENGINE_L.exr and so on, without noise.
 """
 
 import math
@@ -24,28 +24,31 @@ if not hasattr(bpy.types.Scene, "cycles"):
     bpy.ops.preferences.addon_enable(module="cycles")
 
 
-def shown(tree: Any, kind: str, output: str, shader: Any) -> None:
-    """The shader's colour is half of what the node says of each place, plus a half."""
+def shown(tree: Any, kind: str, output: str, shader: Any, factor: float = 0.5) -> None:
+    """The shader's colour is so much of what the node says of each place, plus a half: never below 0."""
     source, scaled = tree.nodes.new(kind), tree.nodes.new("ShaderNodeVectorMath")
     scaled.operation = "MULTIPLY_ADD"
-    scaled.inputs[1].default_value = scaled.inputs[2].default_value = (0.5, 0.5, 0.5)
+    scaled.inputs[1].default_value, scaled.inputs[2].default_value = (factor,) * 3, (0.5,) * 3
     tree.links.new(source.outputs[output], scaled.inputs[0])
     tree.links.new(scaled.outputs[0], shader.inputs["Color"])
 
 
-def glow(kind: str, output: str) -> Any:
+def glow(kind: str, output: str, factor: float = 0.5) -> Any:
     result = inside.material("ShaderNodeEmission")
     nodes = result.node_tree.nodes
-    shown(result.node_tree, kind, output, next(n for n in nodes if n.bl_idname == "ShaderNodeEmission"))
+    shader = next(n for n in nodes if n.bl_idname == "ShaderNodeEmission")
+    shown(result.node_tree, kind, output, shader, factor)
     return result
 
 
 def build() -> None:
     scene = inside.empty_scene()
     shown(scene.world.node_tree, "ShaderNodeTexCoord", "Generated", scene.world.node_tree.nodes["Background"])
-    inside.ball("Places", glow("ShaderNodeNewGeometry", "Position"), (0.7, 2.0, 0.4))
-    inside.ball("Picture", glow("ShaderNodeTexCoord", "Window"), (-1.9, 2.0, -0.4))
-    inside.ball("Behind", glow("ShaderNodeTexCoord", "Camera"), (1.0, -2.0, 0.2))
+    inside.ball("Places", glow("ShaderNodeNewGeometry", "Position", 0.15), (0.7, 2.0, 0.4))
+    # Before, Cycles had the Window coordinates of fisheyes mirrored.
+    window = "Window" if bpy.app.version >= (5, 0) else "Generated"
+    inside.ball("Picture", glow("ShaderNodeTexCoord", window), (-1.9, 2.0, -0.4))
+    inside.ball("Behind", glow("ShaderNodeTexCoord", "Camera", 0.1), (1.0, -2.0, 0.2))
     inside.ball("Near", glow("ShaderNodeNewGeometry", "Normal"), (0.4, 0.3, 1.6)).scale = (0.2, 0.2, 0.2)
     camera = scene.camera
     camera.location, camera.rotation_euler = (0.1, -0.2, 0.3), (1.5, 0.2, 0.3)
@@ -120,8 +123,8 @@ PAIRS: dict[str, dict[str, Any]] = {
 }
 
 
-def pair_of(settings: dict[str, Any]) -> dict[str, Any]:
-    """By side and engine."""
+def write_pair(name: str, settings: dict[str, Any]) -> None:
+    """As NAME.ENGINE_L.exr and NAME.ENGINE_R.exr."""
     build()
     scene = bpy.context.scene
     scene.render.use_multiview = True
@@ -136,17 +139,13 @@ def pair_of(settings: dict[str, Any]) -> dict[str, Any]:
     stereo = camera.data.stereo
     stereo.interocular_distance, stereo.convergence_distance = 0.4, 2.5
     stereo.pole_merge_angle_from, stereo.pole_merge_angle_to = 0.5, 1.0
-    for name, value in settings.items():
-        if name not in ("type", "views"):
-            setattr(stereo, name, value)
-    found = {}
+    for key, value in settings.items():
+        if key not in ("type", "views"):
+            setattr(stereo, key, value)
     for engine in ("CYCLES", "GLIMMER"):
-        scene.render.engine, scene.render.use_multiview = engine, True
-        inside.render(OUT / "pair.exr")
-        scene.render.use_multiview = False  # files are loaded as what they are
-        for side in "LR":
-            found[f"{side}.{engine}"] = inside.pixels(OUT / f"pair_{side}.exr")
-    return found
+        scene.render.engine = engine
+        inside.render(OUT / f"{name}.{engine}.exr")
+    scene.render.use_multiview = False
 
 
 inside.use_format("OPEN_EXR")
@@ -154,5 +153,5 @@ pictures: dict[str, Any] = {}
 for name, settings in CASES.items():
     pictures |= {f"{name}.{engine}": picture for engine, picture in picture_of(settings).items()}
 for name, settings in PAIRS.items():
-    pictures |= {f"{name}, {key}": picture for key, picture in pair_of(settings).items()}
+    write_pair(name, settings)
 np.savez(OUT / "pictures.npz", **pictures)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hosts import Host
 from numpy.typing import NDArray
+from test_render import channels
 
 SCRIPT = Path(__file__).with_name("panorama_script.py")
 KINDS = 8 + 12
@@ -18,7 +19,12 @@ SLOPE = 2e-3
 def pictures(host: Host, tmp_path_factory: pytest.TempPathFactory) -> dict[str, NDArray[np.float32]]:
     folder = tmp_path_factory.mktemp("panoramas")
     host.run_script(SCRIPT, str(folder))
-    return dict(np.load(folder / "pictures.npz"))
+    found = dict(np.load(folder / "pictures.npz"))
+    for path in folder.glob("*_[LR].exr"):
+        name, engine = path.stem[:-2].rsplit(".", 1)
+        parts = channels(path)
+        found[f"{name}, {path.stem[-1]}.{engine}"] = np.stack([parts[c] for c in "RGB"], axis=-1)
+    return found
 
 
 def test_every_pixel_is_that_of_cycles(pictures: dict[str, NDArray[np.float32]]) -> None:
@@ -30,7 +36,7 @@ def test_every_pixel_is_that_of_cycles(pictures: dict[str, NDArray[np.float32]])
         apart = np.abs(ours - cycles).max(axis=-1)
         allowed = SLOPE * (1.0 + np.abs(cycles).max(axis=-1))
         # At the edge of a body or a circle one of the samples may be on the other side.
-        if (apart > allowed).mean() > 5e-4 or np.median(apart) > 1e-4:
+        if (apart > allowed).mean() > 5e-3 or np.median(apart) > 1e-4:
             failures.append(f"{name}: {(apart > allowed).sum()} pixels of {apart.size}, up to {apart.max():.3g}")
         assert cycles.std() > 0.05
     assert not failures, "\n".join(failures)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from addon.scene import description as d
+from addon.scene.program import Op, programmed
 from tests.engine.bits import all_passes, assert_same_bits, pictures, plain_passes
 from tests.engine.library import Image, Render, Scene
 from tests.engine.worlds import everything
@@ -147,6 +148,54 @@ def test_a_holdout_is_empty(transparent: bool) -> None:
     found = render(hole, "alpha")
     assert not found["combined"][:, :4].any() and not found["alpha"][:, :4].any()
     assert (found["alpha"][:, 4:] == (0 if transparent else 1)).all()
+
+
+def test_a_material_may_be_a_hole_in_part() -> None:
+    scene = wall(d.Mix(0.25, d.Holdout(), d.Lambert(grey(0.5))))
+    found, whole = render(scene, "alpha", samples=8), render(wall(d.Lambert(grey(0.5))), samples=8)
+    np.testing.assert_allclose(found["alpha"][:, :4], 0.75, rtol=1e-5)
+    np.testing.assert_allclose(found["combined"][:, :4].mean(), 0.75 * whole["combined"][:, :4].mean(), rtol=0.02)
+    behind = wall(d.Mix(0.5, d.Transparent(grey(1)), d.Lambert(grey(0.5))))
+    back = replace(behind.objects[0], to_world=behind.objects[0].to_world + np.diag([0, 0, 0, 0]), name="back")
+    back.to_world[1, 3] += 1
+    named = (behind.materials[0], d.NamedMaterial("hole", d.Holdout()))
+    through = replace(behind, materials=named, objects=(behind.objects[0], replace(back, materials=(1,))))
+    np.testing.assert_allclose(render(through, "alpha", samples=256)["alpha"][:, :3].mean(), 0.5, atol=0.03)
+
+
+def test_aovs_show_what_materials_give() -> None:
+    """Also through what is transparent, where values add up."""
+    place = Op("geometry", (1.0,), ("position", "center"))
+    found, program = programmed((d.Lambert(grey(0.5)), place, Op("separate", (place,), ("z",))))
+    plain = wall(d.Lambert(grey(0.5)))
+    shown = d.NamedMaterial("shown", found[0], program=program, aovs=((1, found[1]), (8, found[2])))
+    scene = replace(plain, materials=(shown,))
+    names = ("aov_1", "aov_8", "aov_2")
+    first = render(scene, *names, "position", samples=1)
+    np.testing.assert_allclose(first["aov_1"][..., :3], first["position"], atol=1e-5)
+    np.testing.assert_allclose(first["aov_8"][..., 0], first["position"][..., 2], atol=1e-5)
+    assert (first["aov_1"][..., 3] == (first["position"] != 0).any(axis=-1)).all()
+    assert not first["aov_2"].any()
+    np.testing.assert_array_equal(first["combined"], render(plain, "position", samples=1)["combined"])
+    clear = replace(shown, material=d.Transparent(grey(1)), name="clear")
+    before = replace(scene.objects[0], name="before", to_world=scene.objects[0].to_world.copy(), materials=(1,))
+    before.to_world[1, 3] -= 1
+    both = replace(scene, materials=(shown, clear), objects=(scene.objects[0], before))
+    twice = render(both, *names, samples=1)
+    assert (twice["aov_1"][:, :3, 3] == 2).all()
+
+
+@pytest.mark.parametrize("distance", [0.5, 2.0, 100.0])
+def test_occlusion_is_by_what_is_near(distance: float) -> None:
+    """A floor under a ceiling, 1 above it: directions whose cosine is below 1 / distance meet it too late."""
+    builder = Builder(camera((0, 0, 0.5), (0, 0.01, 0), 40), 8, 6, environment=SKY)
+    builder.mesh(floor(0, 1e4), d.Lambert(grey(0.5))).mesh(floor(1, 1e4), d.Lambert(grey(0)))
+    scene = builder.done()
+    scene = replace(scene, film=replace(scene.film, occlusion_distance=distance))
+    found = render(scene, "ambient_occlusion", "position", samples=256)
+    expected = min(1 / distance, 1) ** 2
+    np.testing.assert_allclose(found["ambient_occlusion"].mean(), expected, atol=5 * 0.5 / np.sqrt(256 * 48))
+    np.testing.assert_array_equal(found["combined"], render(scene, "position", samples=256)["combined"])
 
 
 def test_what_the_camera_sees_is_where_it_is() -> None:

@@ -45,7 +45,8 @@ void read_mist(const Value &mist, glimmer_film_desc &desc) {
 } // namespace
 
 Film read_film(const Value &value, glimmer_scene *scene) {
-    value.expect_object({"width", "height", "filter", "crop", "exposure", "transparent", "transparent_glass", "mist"});
+    value.expect_object({"width", "height", "filter", "crop", "exposure", "transparent", "transparent_glass", "mist",
+                         "occlusion_distance"});
     glimmer_film_desc desc;
     glimmer_film_init(&desc);
     Film film;
@@ -58,6 +59,8 @@ Film read_film(const Value &value, glimmer_scene *scene) {
         desc.exposure = exposure->single(kNonNegative);
     read_transparency(value, desc);
     film.transparent = desc.transparent != 0;
+    if (const auto distance = value.find("occlusion_distance"))
+        desc.occlusion_distance = distance->single(kNonNegative);
     if (const auto mist = value.find("mist"))
         read_mist(*mist, desc);
     if (const auto crop = value.find("crop")) {

@@ -125,11 +125,21 @@ class MaterialReader {
         for (const auto *info : schema_.parameters(type))
             keys.emplace_back(info->key);
         keys.emplace_back("normal");
+        keys.emplace_back("aovs");
         value.expect_object(keys);
         std::vector<glimmer_parameter> parameters;
         std::vector<std::pair<const char *, Value>> varying; // the engine says what may vary
         if (const auto normal = value.find("normal"))
             varying.emplace_back("normal", *normal);
+        if (const auto aovs = value.find("aovs")) {
+            std::vector<std::string_view> names;
+            for (const std::string &aov : aov_keys_)
+                names.push_back(aov);
+            aovs->expect_object(names);
+            for (const std::string &aov : aov_keys_)
+                if (const auto given = aovs->find(aov.c_str()))
+                    varying.emplace_back(aov.c_str(), *given);
+        }
         for (const auto *info : schema_.parameters(type))
             if (const auto given = value.find(info->key)) {
                 if (is_binding(*given) && (info->kind == GLIMMER_NUMBER || info->kind == GLIMMER_COLOR)) {
@@ -188,7 +198,15 @@ class MaterialReader {
         return parameter;
     }
 
+    static std::vector<std::string> aov_keys() {
+        std::vector<std::string> keys;
+        for (uint32_t i = 0; i < GLIMMER_MAX_AOVS; ++i)
+            keys.push_back("aov_" + std::to_string(i + 1));
+        return keys;
+    }
+
     Schema schema_;
+    std::vector<std::string> aov_keys_ = aov_keys();
     std::deque<std::string> words_; ///< what parameters point to
     const Value &table_;
     const Programs &programs_;

@@ -39,6 +39,14 @@ std::shared_ptr<const Texture> make_texture(const glimmer_texture_desc &d) {
     return texture;
 }
 
+/// "aov_1" is 0; nothing where the key is not of an AOV.
+std::optional<uint32_t> aov_of(const char *key) {
+    for (uint32_t i = 0; key && i < GLIMMER_MAX_AOVS; ++i)
+        if (key == "aov_" + std::to_string(i + 1))
+            return i;
+    return std::nullopt;
+}
+
 /// The row of a parameter of the material, or kNormal.
 uint32_t find_row(const char *key, const MaterialDescription &material, bool is_number, const std::string &what) {
     const std::string_view wanted = key ? key : "";
@@ -146,6 +154,13 @@ glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t material, const
         if (output >= s.programs[program]->output_count())
             fail_argument(what + ": output " + std::to_string(output) + " of " +
                           std::to_string(s.programs[program]->output_count()) + " of its program");
+        if (const auto aov = aov_of(key)) {
+            for (const ParameterBinding &known : m.aovs)
+                if (known.row == *aov)
+                    fail_argument(what + ": " + key + " is bound twice");
+            m.aovs.push_back({*aov, program, output});
+            return;
+        }
         const uint32_t row = find_row(key, m, s.programs[program]->is_number(output), what);
         for (const ParameterBinding &known : m.bindings)
             if (known.row == row)

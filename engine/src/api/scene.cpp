@@ -521,6 +521,7 @@ void glimmer_film_init(glimmer_film_desc *desc) {
     desc->exposure = 1;
     desc->transparent_glass = -1;
     desc->mist_start = 5, desc->mist_depth = 25, desc->mist_falloff = 2;
+    desc->occlusion_distance = 10;
 }
 
 glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_desc *desc) {
@@ -549,6 +550,7 @@ glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_d
         check_least(double(d.mist_start), 0, "film: mist_start");
         check_least(double(d.mist_depth), 0, "film: mist_depth");
         check_least(double(d.mist_falloff), 0, "film: mist_falloff");
+        check_least(double(d.occlusion_distance), 0, "film: occlusion_distance");
         s.film = d;
     });
 }

@@ -20,7 +20,7 @@ struct Pass {
 
 namespace detail {
 
-inline constexpr size_t kMaxPassChannels = 3;
+inline constexpr size_t kMaxPassChannels = 4;
 
 template <class Value>
 void put(const Value &v, float *channels) {
@@ -48,6 +48,15 @@ template <size_t Group>
 constexpr Pass light_group(const char *name) {
     return {{name, "RGB", "light from the lights of the group", GLIMMER_RULE_MEAN},
             [](const FilmSample &sample, float *channels) { put(sample.more->light_groups[Group], channels); }};
+}
+template <size_t Number>
+constexpr Pass aov(const char *name) {
+    return {{name, "RGBA", "what materials give, and the part of the pixel where they do", GLIMMER_RULE_MEAN},
+            [](const FilmSample &sample, float *channels) {
+                const AovValue &value = sample.more->aovs[Number];
+                put(value.color, channels);
+                channels[3] = value.part;
+            }};
 }
 /// The film adds covers up by itself.
 inline void no_value(const FilmSample &, float *) {}
@@ -134,6 +143,16 @@ inline constexpr std::array<Pass, GLIMMER_PASS_COUNT> kPasses{{
     detail::light_group<13>("light_group_14"),
     detail::light_group<14>("light_group_15"),
     detail::light_group<15>("light_group_16"),
+    detail::aov<0>("aov_1"),
+    detail::aov<1>("aov_2"),
+    detail::aov<2>("aov_3"),
+    detail::aov<3>("aov_4"),
+    detail::aov<4>("aov_5"),
+    detail::aov<5>("aov_6"),
+    detail::aov<6>("aov_7"),
+    detail::aov<7>("aov_8"),
+    {{"ambient_occlusion", "RGB", "part of the directions above a surface where nothing is near", GLIMMER_RULE_MEAN},
+     detail::more_value<&PassSample::ambient_occlusion>},
 }};
 
 /// Passes as a set of bits.
@@ -143,7 +162,7 @@ constexpr PassBits bit_of(uint32_t pass) {
 }
 /// Those that are made from a PassSample, and of them those of light by group.
 inline constexpr PassBits kPassesOfMore = bit_of(GLIMMER_PASS_COUNT) - bit_of(GLIMMER_PASS_ALPHA);
-inline constexpr PassBits kLightGroupPasses = bit_of(GLIMMER_PASS_COUNT) - bit_of(GLIMMER_PASS_LIGHT_GROUP);
+inline constexpr PassBits kLightGroupPasses = bit_of(GLIMMER_PASS_AOV) - bit_of(GLIMMER_PASS_LIGHT_GROUP);
 
 /// Those of light, which is a sum over all that a sample has met.
 inline constexpr PassBits kLightPasses = [] {

@@ -19,6 +19,12 @@ struct Cover {
 /// Light by the group of the light that it comes from, group 1 first.
 using LightGroups = std::array<Rgb, GLIMMER_MAX_LIGHT_GROUPS>;
 
+/// What surfaces give to one of the AOV passes.
+struct AovValue {
+    Rgb color;
+    float part = 0; ///< 1 for each surface
+};
+
 /// What only some passes show. A renderer that has been asked for none of them carries none of this.
 struct PassSample {
     Rgb emit, environment;
@@ -28,11 +34,13 @@ struct PassSample {
     Rgb diffuse_color, glossy_color, transmission_color; ///< albedos of what the camera sees
     Vec3f position;                                      ///< in the scene's own coordinates
     Vec3f uv;                                            ///< u, v, 1
+    Rgb ambient_occlusion;
     float clearness = 0;    ///< 1 less the mist, of the part of the sample that surfaces take up
     float transparency = 0; ///< part of the sample where the picture is empty
     LightGroups light_groups;
     std::array<Cover, 8> covers; ///< what the camera sees, the nearest first; what lies behind so many is left out
     uint32_t cover_count = 0;
+    std::array<AovValue, GLIMMER_MAX_AOVS> aovs;
 
     void add_groups(const LightGroups &groups, const Rgb &factor) {
         for (size_t i = 0; i < groups.size(); ++i)

@@ -98,6 +98,7 @@ void SceneBuilder::build_camera_and_film() {
     film.exposure = f.exposure;
     film.transparent = f.transparent != 0;
     film.transparent_width = f.transparent_glass;
+    film.occlusion_distance = f.occlusion_distance;
     film.mist_start = f.mist_start, film.mist_depth = f.mist_depth, film.mist_falloff = f.mist_falloff;
     if (f.filter == GLIMMER_BLACKMAN_HARRIS)
         film.filter = PixelFilter::blackman_harris(f.filter_width);

@@ -17,6 +17,7 @@ void SceneBuilder::build_materials() {
             flatten(description_.materials, i, nullptr, flat);
         out.emission = flat.emission;
         out.transparency = flat.transparency;
+        out.holdout = flat.holdout;
         set_probabilities(flat.lobes);
         scene_.materials.add(std::move(out), flat.lobes);
     }

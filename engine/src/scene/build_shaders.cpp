@@ -112,13 +112,19 @@ void SceneBuilder::build_shaders() {
     for (uint32_t i = 0; i < count; ++i)
         if (used_[i] && varies(description_.materials, i))
             varying.push_back(i);
-    if (varying.empty() && !description_.sky)
+    bool has_aovs = false;
+    for (uint32_t i = 0; i < count; ++i)
+        has_aovs |= used_[i] && !description_.materials[i].aovs.empty();
+    if (varying.empty() && !description_.sky && !has_aovs)
         return;
     auto shaders = std::make_shared<ShaderScene>();
     for (const MaterialDescription &m : description_.materials) {
         shaders->bindings.push_back(m.bindings);
         shaders->nodes.push_back(m);
         shaders->nodes.back().bindings.clear();
+        shaders->nodes.back().aovs.clear();
+        if (has_aovs)
+            shaders->aovs.push_back(m.aovs);
         shaders->nodes.back().label.clear(); // nodes are copied where they are shaded
     }
     const Names names = number_attributes(description_.programs);

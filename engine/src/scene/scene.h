@@ -27,6 +27,7 @@ struct FilmSettings {
     /// Widest GGX of glass through which a transparent film is empty too; below 0: none.
     float transparent_width = -1;
     float mist_start = 5, mist_depth = 25, mist_falloff = 2;
+    float occlusion_distance = 10;
 };
 
 /// What passes know an object, or a sphere, by.
@@ -46,7 +47,7 @@ class Scene {
 
     Camera camera;
     bool camera_is_invertible = true; ///< all places of the film where a point is seen are known
-    Vec3d origin; ///< of all coordinates here, in the caller's
+    Vec3d origin;                     ///< of all coordinates here, in the caller's
     FilmSettings film;
     Materials materials;
     std::vector<std::vector<uint32_t>> object_materials; ///< by object: the material of each slot

@@ -27,6 +27,7 @@ struct Material {
     float interior_ior = 0;                  ///< of the body that it bounds; 0: it bounds none
     Rgb emission;                            ///< radiance on both sides
     Rgb transparency;                        ///< what goes straight through
+    float holdout = 0;                       ///< the part that is a hole where the camera sees it
     uint32_t lobe_begin = 0, lobe_count = 0; ///< of the table's constant lobes
     uint32_t varying = kConstant;            ///< of ShaderScene::materials
     MaterialBounds bounds;

@@ -30,6 +30,7 @@ enum class MaterialType : uint8_t {
     sheen,
     layer,
     subsurface,
+    holdout,
     count
 };
 
@@ -77,6 +78,7 @@ struct MaterialDescription {
     uint32_t a = 0, b = 0; ///< materials before this one
 
     std::vector<ParameterBinding> bindings;
+    std::vector<ParameterBinding> aovs; ///< values for the AOV passes; row: which of them, from 0
 };
 
 } // namespace glimmer

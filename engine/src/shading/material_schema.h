@@ -32,6 +32,7 @@ inline constexpr std::array kMaterials = std::to_array<glimmer_material_info_t>(
     {"sheen", 1, "cloth's shine towards grazing angles"},
     {"layer", 1, "a material on top of another, which gets what the upper one leaves to it"},
     {"subsurface", 1, "light enters a body, wanders within, and leaves it diffusely elsewhere"},
+    {"holdout", 1, "black, and a hole where the camera sees it: 0 in the AOV alpha"},
 });
 static_assert(kMaterials.size() == size_t(MaterialType::count));
 
@@ -178,6 +179,7 @@ inline constexpr std::array kParameters = [] {
 
         color(T::transparent, "transmittance", &D::transmittance, kUnit, ""),
         emission(T::transparent),
+        emission(T::holdout),
 
         color(T::translucent, "albedo", &D::albedo, kUnit, ""),
         emission(T::translucent),

@@ -61,6 +61,7 @@ Lobe to_lobe(const MaterialDescription &m) {
     case MaterialType::transparent:
     case MaterialType::light:
     case MaterialType::null:
+    case MaterialType::holdout:
     case MaterialType::count:
         break;
     }
@@ -176,6 +177,9 @@ void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, cons
     case MaterialType::null:
         out.transparency += Rgb(weight);
         break;
+    case MaterialType::holdout:
+        out.holdout += weight;
+        break;
     case MaterialType::transparent:
         out.transparency += m.transmittance * weight;
         break;
@@ -201,6 +205,7 @@ void flatten(std::span<const MaterialDescription> nodes, uint32_t index, const P
              FlatMaterial &out) {
     out.lobes.clear();
     out.emission = out.transparency = {};
+    out.holdout = 0;
     add_leaves(nodes, index, {}, outputs, out);
     if (interior_ior(out.lobes) > 0 && !is_black(out.transparency)) { // what goes straight through enters the body, too
         out.lobes.push_back({Transparent{out.transparency}, 1, 0});

@@ -14,7 +14,8 @@ namespace glimmer {
 struct FlatMaterial {
     std::vector<WeightedLobe> lobes; ///< their probabilities are not set
     Rgb emission;
-    Rgb transparency; ///< what goes straight through
+    Rgb transparency;  ///< what goes straight through
+    float holdout = 0; ///< see Shading
 };
 
 /// The index of the body that a surface with these lobes bounds; 0: it bounds none.

@@ -30,7 +30,8 @@ class Materials {
         const Material &m = materials_[surface.material];
         if (m.varying != Material::kConstant) [[unlikely]]
             return shaders->shade(m.varying, surface, view, arena);
-        return {Bsdf(lobes_.data() + m.lobe_begin, m.lobe_count), m.emission, m.transparency, m.interior_ior};
+        return {Bsdf(lobes_.data() + m.lobe_begin, m.lobe_count), m.emission, m.transparency, m.interior_ior,
+                m.holdout};
     }
 
     /// Known to all that ask for shading; null: nothing varies.

@@ -205,7 +205,27 @@ Shading ShaderScene::shade(uint32_t varying, Interaction &surface, const View &v
             set_frame(*metal, Frame(surface.shading_normal * side));
         }
     set_probabilities(room);
-    return {Bsdf(room), flat.emission, flat.transparency, interior_ior(room)};
+    return {Bsdf(room), flat.emission, flat.transparency, interior_ior(room), flat.holdout};
+}
+
+void ShaderScene::write_aovs(uint32_t material, const Interaction &surface, const View &view,
+                             std::span<AovValue> out) const {
+    Place place;
+    set_place(place, surface, view);
+    place.globals.material_index = float(material + 1);
+    std::vector<Vec3f> values;
+    uint32_t known = kNone; // the program whose values these are
+    for (const ParameterBinding &b : aovs[material]) {
+        if (b.program != known) {
+            values.resize(programs[b.program]->output_count());
+            programs[b.program]->evaluate(place.globals, values.data());
+            known = b.program;
+        }
+        const Vec3f &v = values[b.output];
+        AovValue &sum = out[b.row];
+        sum.color += Rgb(v.x, v.y, v.z);
+        sum.part += 1;
+    }
 }
 
 Rgb ShaderScene::emission(uint32_t varying, const Interaction &surface, const View &view) const {

@@ -2,6 +2,7 @@
 // Everything of a scene that shader programs look at, and the materials that they are for.
 #pragma once
 
+#include "film/sample.h"
 #include "geometry/accel.h"
 #include "light/varying_emission.h"
 #include "shading/closure_arena.h"
@@ -54,6 +55,7 @@ class ShaderScene : public VaryingEmission {
     std::vector<std::vector<MeshAttribute>> of_instances; ///< by object: what its instances have
     std::vector<std::vector<uint32_t>> object_materials;  ///< by object: the material of each slot
     std::vector<uint32_t> sphere_materials;               ///< by sphere
+    std::vector<std::vector<ParameterBinding>> aovs;      ///< by material, see MaterialDescription; empty: none has any
     std::optional<ParameterBinding> sky;                  ///< the radiance of the environment
 
     /// Prepares a material of the scene that varies. Throws Error where it has too many parts.
@@ -63,6 +65,9 @@ class ShaderScene : public VaryingEmission {
     /// view.wo.
     [[gnu::noinline]] Shading shade(uint32_t varying, Interaction &surface, const View &view,
                                     ClosureArena &arena) const;
+
+    /// Adds what the material gives to the AOV passes at a place. Only where `aovs` is not empty.
+    void write_aovs(uint32_t material, const Interaction &surface, const View &view, std::span<AovValue> out) const;
 
     Rgb of_triangle(uint32_t instance, uint32_t primitive, Vec2f uv, const Vec3f &wo) const override;
     Rgb of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const override;

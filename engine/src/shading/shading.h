@@ -12,6 +12,7 @@ struct Shading {
     Rgb emission;
     Rgb transparency;       ///< the part of light that goes straight through, as if there were no surface
     float interior_ior = 0; ///< of the body that the surface bounds; 0: none
+    float holdout = 0;      ///< the part that is a hole where the camera sees it
 };
 
 /// What depth, normals and indices show is the surface behind it.

@@ -22,6 +22,7 @@ struct PathContext {
     float primary_weight;
     /// Takes what counts otherwise than the rest; null: all counts alike.
     SampleParts *parts = nullptr;
+    bool ambient_occlusion = false; ///< its pass is asked for
 };
 
 struct PathKernel {

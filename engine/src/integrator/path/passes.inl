@@ -5,6 +5,7 @@
 
 #include "bsdf/lobe_sums.h"
 #include "integrator/path/path_sample.h"
+#include "sampling/warp.h"
 #include "shading/shading_point.h"
 
 #include <algorithm>
@@ -93,6 +94,28 @@ void PathSample<F>::pass_first_surface(const Interaction &surface, ShutterTime t
 }
 
 template <KernelFeatures F>
+void PathSample<F>::pass_aovs(const State &state, const Interaction &surface, float distance) {
+    const ShaderScene *shaders = scene().materials.shaders.get();
+    if (trace_.passes && shaders && !shaders->aovs.empty())
+        shaders->write_aovs(surface.material, surface,
+                            {-state.ray.direction, 0, state.ray.time, arrival(state, distance)}, trace_.passes->aovs);
+}
+
+template <KernelFeatures F>
+void PathSample<F>::pass_occlusion(const State &state, const Interaction &surface, const Shading &shading,
+                                   const OrientedSurface &at) {
+    Sampler numbers = sampler_; // a copy: the picture does not depend on its passes
+    const Vec3f direction = normalize(at.frame.to_world(sample_cosine_hemisphere(numbers.next_2d())));
+    if (!(dot(direction, at.geometric) > 0))
+        return;
+    const Ray ray{surface.origin_towards(direction), direction, state.ray.time, scene().film.occlusion_distance};
+    Rgb clear = glimmer::visibility<F.bvh>(scene(), ray, RayKind::shadow, trace_);
+    if (const Medium *medium = medium_of(state))
+        clear *= transmittance(*medium, ray, ray.t_max);
+    trace_.passes->ambient_occlusion += state.beta * (Rgb(1) - shading.transparency) * clear;
+}
+
+template <KernelFeatures F>
 void PathSample<F>::pass_surface(const State &state, const Hit &hit, const Interaction &surface,
                                  const Shading &shading) {
     PassSample *out = trace_.passes;
@@ -108,9 +131,14 @@ void PathSample<F>::pass_surface(const State &state, const Hit &hit, const Inter
         out->covers[out->cover_count++] = {scene().passes_of(hit).matte, surface.material + 1, opaque};
     out->clearness += (1 - std::pow(mist, film.mist_falloff)) * opaque;
 
+    if (shading.holdout > 0 && state.passes.sees_environment)
+        out->transparency += mean_component(state.beta) * shading.holdout;
+
     const auto oriented_surface = orient(state, surface, shading);
     if (!oriented_surface)
         return;
+    if (context_.ambient_occlusion)
+        pass_occlusion(state, surface, shading, *oriented_surface);
     Bsdf bsdf = shading.bsdf;
     bsdf.eta = oriented_surface->eta;
     const LobeSums color = albedo_by_kind(bsdf, oriented_surface->wo);

@@ -24,6 +24,7 @@ class PathIntegrator final : public Integrator {
                                    : 0) {
         if (flags_.light_vertices && flags_.equiangular && flags_.deep_equiangular)
             light_vertices_ = plan_light_vertex_cache(scene, limits, around_camera_, (passes & kLightGroupPasses) != 0);
+        ambient_occlusion_ = (passes & bit_of(GLIMMER_PASS_AMBIENT_OCCLUSION)) != 0;
         plan_ = plan_splitting(scene, flags);
         plan_.pixel_ris = plan_.pixel_ris && !scene.camera.has_blind_places() && around_camera_.empty() &&
                           !rays_start_apart() && limits.depth > 0;
@@ -52,7 +53,7 @@ class PathIntegrator final : public Integrator {
         const uint32_t extra_rays = emitter_rays_.rays(camera.pixel_x, camera.pixel_y);
         const float primary_weight = 1 / float(1 + extra_rays);
         const PathContext context{scene_,         limits_,        flags_,         plan_, light_vertices,
-                                  camera.pixel_x, camera.pixel_y, primary_weight, parts};
+                                  camera.pixel_x, camera.pixel_y, primary_weight, parts, ambient_occlusion_};
         // Where a ray sees nothing its pixel may see something elsewhere: splats and emitter rays.
         FilmSample result =
             camera.is_blind() ? FilmSample()
@@ -119,6 +120,7 @@ class PathIntegrator final : public Integrator {
     InteriorStack around_camera_;
     EmitterRays emitter_rays_;
     LightVertexPlan light_vertices_;
+    bool ambient_occlusion_ = false;
     SplittingPlan plan_;
     KernelFeatures needed_;
     const PathKernel *kernel_ = nullptr;

@@ -149,6 +149,8 @@ class PathSample {
     void pass_light(const PassState &first, const Rgb &value, bool direct);
     /// What the first surface is, whatever it looks like.
     void pass_first_surface(const Interaction &surface, ShutterTime time);
+    /// What a surface's material gives to the AOV passes.
+    void pass_aovs(const State &state, const Interaction &surface, float distance);
     /// What a surface looks like that the camera sees, if only through others.
     void pass_surface(const State &state, const Hit &hit, const Interaction &surface, const Shading &shading);
     /// Whether the picture is empty where the state's segment meets the environment.
@@ -337,6 +339,9 @@ class PathSample {
         bool bounds_interior = false;                            ///< what is transmitted enters a body or leaves it
         [[no_unique_address]] typename State::Interior beyond{}; ///< the bodies around it then
     };
+    /// Whether anything is near a surface, in one direction.
+    void pass_occlusion(const State &state, const Interaction &surface, const Shading &shading,
+                        const OrientedSurface &at);
     std::optional<OrientedSurface> orient(const State &state, const Interaction &surface, const Shading &shading) const;
     /// Whether a sampled direction is on the side of the true surface that it claims: a shading normal may promise what
     /// cannot be kept.

@@ -33,6 +33,9 @@ void PathSample<F>::follow(State &state) {
         if constexpr (F.surfaces)
             arena_.clear();
         shading = shade(*surface, state.ray, arrival(state, hit->t));
+        if constexpr (F.passes)
+            if (state.depth == 0 && !result_.hit)
+                pass_aovs(state, *surface, hit->t);
         const bool is_behind = F.transparency && (result_.hit || is_mostly_seen_through(shading));
         if (state.seen_directly() && state.depth == 0 && !is_behind)
             note_first_surface(*surface, state.ray.time);
