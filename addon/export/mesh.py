@@ -46,6 +46,19 @@ def split_by_normal(
     return order[first], new_vertex
 
 
+def doubled_faces(mesh: Mesh) -> int:
+    """How many triangles have the corners of others."""
+    words = np.ascontiguousarray(mesh.vertices, np.float32).view(np.uint32).astype(np.uint64)
+    primes = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
+    places = (words * primes).sum(axis=1, dtype=np.uint64)
+    places ^= places >> np.uint64(29)
+    places *= np.uint64(0xBF58476D1CE4E5B9)
+    places ^= places >> np.uint64(32)
+    corners = places[mesh.triangles]
+    keys = corners.sum(axis=1, dtype=np.uint64) + corners[:, 0] * corners[:, 1] * corners[:, 2]
+    return len(keys) - len(np.unique(keys))
+
+
 def export_mesh(
     mesh: bpy.types.Mesh, name: str, slot_count: int = 1, attributes: frozenset[str] = frozenset()
 ) -> Mesh | None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import ceil
 from typing import Protocol
 
 from ..scene.description import (
@@ -292,7 +293,7 @@ def _lobes_before_4(inputs: _Inputs, diffuse_share: Number) -> Surface:
             parts.append(Burley(diffuse, roughness, part="retro"))
         sheen = product(inputs.unit("Sheen"), diffuse_share)
         if sheen != 0.0:
-            parts.append(Sheen(scaled(_tinted(inputs, "Sheen Tint", LUMINANCE), sheen), model="schlick"))
+            parts += _velvets(inputs, scaled(_tinted(inputs, "Sheen Tint", LUMINANCE), sheen))
     specular = clamped(inputs.shaders.varying_number(inputs.source, "Specular"), 0.0, 10.0)
     if specular != 0.0 or inputs.metallic != 0.0:
         f0 = product(specular, 0.08)
@@ -307,6 +308,18 @@ def _lobes_before_4(inputs: _Inputs, diffuse_share: Number) -> Surface:
     for part in parts[1:]:
         result = Add(result, part)
     return result
+
+
+MOST_SHEENS = 4
+
+
+def _velvets(inputs: _Inputs, color: Triple) -> list[Surface]:
+    """The hue of a dark colour may be more than 1, which no single lobe can be: several share it."""
+    brightest = 2.0 if isinstance(color, Op) else max(color)
+    if brightest > MOST_SHEENS:
+        inputs.notice(f"its sheen is brighter ({brightest:.3g}) than can be rendered; cut to {MOST_SHEENS}")
+    count = min(max(ceil(brightest), 1), MOST_SHEENS)
+    return [Sheen(clamped_color(scaled(color, 1.0 / count)), model="schlick")] * count
 
 
 def _tinted(inputs: _Inputs, name: str, weights: Rgb) -> Triple:
