@@ -315,7 +315,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
 LONG = (
     "light by way of metal, in a mirror",
     "light by way of metal, forward",
-    *(f"metal, {name}" for name in PANORAMAS if name not in ("panorama", "equisolid")),
+    *(f"metal, {name}" for name in PANORAMAS),
 )
 
 
