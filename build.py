@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from engine.farm import __main__ as farm_command
 from tests import newest_blender
 
 ROOT = Path(__file__).resolve().parent
@@ -275,7 +276,7 @@ def python_311() -> str:
             continue
         if subprocess.run([candidate, "-c", probe], capture_output=True, check=False).returncode == 0:
             return candidate
-    raise BuildError("the tests need a Python 3.11 with venv (Debian 12: apt-get install python3-venv)")
+    raise BuildError("Python 3.11 with venv is needed (Debian 12: apt-get install python3-venv)")
 
 
 def virtual_environment(name: str) -> Path:
@@ -614,6 +615,21 @@ def check(blender: str | None, options: CheckOptions) -> None:
     run([*command, "--said", shlex.join(said)], env=own_python_first(executable))
 
 
+def farm(words: Sequence[str]) -> None:
+    """One frame over many machines, by the package engine.farm; its words are its own."""
+    if {"-h", "--help"} & set(words):
+        farm_command.arguments().print_help()
+        return
+    install_packages([*wanted_packages(("build",), None), "python3-venv", "ca-certificates"])
+    build()
+    python = virtual_environment("farm")
+    path = os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])
+    command = [str(python), "-m", "engine.farm", *words]
+    status = subprocess.run(command, env={**os.environ, "PYTHONPATH": path}, check=False).returncode
+    if status != 0:
+        sys.exit(status)
+
+
 def addon_version() -> str:
     found = re.search(r'^version\s*=\s*"([^"]+)"', (ADDON / "blender_manifest.toml").read_text(), re.MULTILINE)
     if not found:
@@ -759,6 +775,13 @@ def arguments() -> argparse.ArgumentParser:
         metavar="FOLDER",
         help="also write check.md and check.json there; extremes.md of --cycles",
     )
+    item = commands.add_parser(
+        "farm",
+        help="Render one frame by many machines, or be one of them; `build.py farm --help` and addon/docs/farm.md.",
+        add_help=False,
+        prefix_chars="\0",  # its words are the package's, options and all
+    )
+    item.add_argument("words", nargs="*")
     command("lint", "Check style, types and compiler warnings: ruff, mypy, clang-format, -Werror.")
     command("package", "Make the add-on's zip, with the library inside; prints its path.")
     command("clean", "Remove build/.")
@@ -812,6 +835,8 @@ def main(argv: Sequence[str]) -> int:
         elif given.command == "check":
             report = given.report.absolute() if given.report else None
             check(given.blender, CheckOptions(given.quick, given.integrator, given.only, given.cycles, report))
+        elif given.command == "farm":
+            farm(given.words)
         elif given.command == "lint":
             lint()
         elif given.command == "package":

@@ -27,7 +27,14 @@ def build_py(*arguments: str | Path, **variables: str) -> subprocess.CompletedPr
     )
 
 
-@pytest.mark.parametrize(("file", "own"), [("build.py", {"tests"}), ("tests/newest_blender.py", set())])
+@pytest.mark.parametrize(
+    ("file", "own"),
+    [
+        ("build.py", {"tests", "engine"}),
+        ("tests/newest_blender.py", set()),
+        ("engine/farm/__main__.py", {"", "problems", "farm"}),
+    ],
+)
 def test_imports_nothing_but_the_standard_library(file: str, own: set[str]) -> None:
     tree = ast.parse((ROOT / file).read_text())
     names = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
@@ -38,7 +45,19 @@ def test_imports_nothing_but_the_standard_library(file: str, own: set[str]) -> N
 
 def test_help_names_every_command() -> None:
     text = build_py("--help").stdout
-    for command in ("setup", "build", "render", "test", "bench", "compare", "check", "lint", "package", "clean"):
+    for command in (
+        "setup",
+        "build",
+        "render",
+        "test",
+        "bench",
+        "compare",
+        "check",
+        "farm",
+        "lint",
+        "package",
+        "clean",
+    ):
         assert re.search(rf"^ +{command} ", text, re.MULTILINE), command
         assert build_py(command, "--help").stdout.startswith(f"usage: build.py {command}")
 
