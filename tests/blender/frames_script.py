@@ -18,18 +18,17 @@ inside.use_format("PNG")
 scene.glimmer.samples = 2
 scene.frame_start, scene.frame_end = 1, 3
 
-# What Blender cannot render comes with the second frame.
-camera = scene.camera.data
-for frame, kind in ((1, "PERSP"), (2, "PANO"), (3, "PERSP")):
-    camera.type = kind
-    camera.keyframe_insert("type", frame=frame)
+# With the second frame comes a camera that cannot be rendered by.
+for frame, size in ((1, 1.0), (2, 0.0), (3, 1.0)):
+    scene.camera.scale = (size, size, size)
+    scene.camera.keyframe_insert("scale", frame=frame)
 scene.frame_set(1)
 bpy.ops.wm.save_as_mainfile(filepath=str(OUT / "second_fails.blend"))
 
 scene.render.use_overwrite, scene.render.use_placeholder = False, True
 bpy.ops.wm.save_as_mainfile(filepath=str(OUT / "goes_on.blend"))
 
-camera.animation_data_clear()
-camera.type = "PERSP"
+scene.camera.animation_data_clear()
+scene.camera.scale = (1.0, 1.0, 1.0)
 scene.glimmer.samples = 1_000_000
 bpy.ops.wm.save_as_mainfile(filepath=str(OUT / "endless.blend"))
