@@ -22,6 +22,7 @@ LIGHT = (
 )
 VIEW = camera((0, -6, 2), (0, 0, 0.5), 50)
 SKY = d.Environment((0.4, 0.5, 0.7))
+HAZE = d.Medium(grey(0.01), grey(0.05), 0.3)
 METAL = d.Mix(0.4, d.Lambert((0.7, 0.5, 0.3)), d.Conductor(0.2, f0=(0.9, 0.8, 0.5)))
 WIDTH, HEIGHT = 40, 30
 
@@ -241,7 +242,6 @@ def grouped(**parts: Any) -> d.SceneDescription:
     )
 
 
-HAZE = d.Medium(grey(0.01), grey(0.05), 0.3)
 GROUPS = tuple(f"light_group_{i}" for i in (1, 2, 3, 16))
 
 
