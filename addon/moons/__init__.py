@@ -3,16 +3,18 @@
 
 
 def register() -> None:
-    from . import operators, panel, properties
+    from . import operators, orbit, panel, properties
 
     properties.register()
+    orbit.register()
     operators.register()
     panel.register()
 
 
 def unregister() -> None:
-    from . import operators, panel, properties
+    from . import operators, orbit, panel, properties
 
     panel.unregister()
     operators.unregister()
+    orbit.unregister()
     properties.unregister()

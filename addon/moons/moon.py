@@ -11,6 +11,8 @@ from typing import Any
 import bpy
 import numpy as np
 
+from . import surface
+
 _MESH_MARK = "glimmer_unit_sphere"
 _MATERIAL_MARK = "glimmer_moon"
 _RINGS, _SEGMENTS = 32, 64
@@ -25,6 +27,7 @@ class Moon:
     strength: float
     radius: float
     location: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    surface: str = "EVEN"  # or one of surface.KINDS
 
 
 # The last is all but black: an opaque disc of faint violet light.
@@ -43,9 +46,9 @@ def create(moon: Moon, collection: Any) -> Any:
     obj.scale = (moon.radius,) * 3
     # The material hangs on the object: the mesh is shared.
     obj.material_slots[0].link = "OBJECT"
-    obj.material_slots[0].material = light_material(moon.name, moon.color, moon.strength)
+    obj.material_slots[0].material = light_material(moon.name, moon.color, moon.strength, moon.surface)
     if hasattr(obj, "glimmer"):
-        obj.glimmer.is_sphere = True
+        obj.glimmer.is_sphere = moon.surface == "EVEN"  # an analytic sphere has no coordinates for textures
     collection.objects.link(obj)
     return obj
 
@@ -65,29 +68,51 @@ def unit_sphere() -> Any:
     return mesh
 
 
-def light_material(name: str, color: tuple[float, float, float], strength: float) -> Any:
+def light_material(name: str, color: tuple[float, float, float], strength: float, kind: str = "EVEN") -> Any:
+    """kind: an even light, or a surface of surface.KINDS."""
     material = bpy.data.materials.new(name)
     material[_MATERIAL_MARK] = True
     if bpy.app.version < (5, 0):  # from then on always
         material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
-    emission = tree.nodes.new("ShaderNodeEmission")
+    emission = tree.nodes.new("ShaderNodeEmission") if kind == "EVEN" else surface.add(tree, kind)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = 250, 0
     emission.inputs["Color"].default_value = (*color, 1.0)
-    emission.inputs["Strength"].default_value = strength
+    if "Strength" in emission.inputs:
+        emission.inputs["Strength"].default_value = strength
     tree.links.new(emission.outputs[0], output.inputs["Surface"])
     material.diffuse_color = (*color, 1.0)
     return material
 
 
 def emission_node(obj: Any) -> Any:
-    """The Emission node of a moon, or None if the object is no moon."""
+    """The node that holds the sliders of a moon, its Emission or its surface; None if the object is no moon."""
     material = obj.active_material if obj is not None and obj.type == "MESH" else None
     if material is None or material.node_tree is None or _MATERIAL_MARK not in material:
         return None
-    return next((node for node in material.node_tree.nodes if node.type == "EMISSION"), None)
+    nodes = material.node_tree.nodes
+    return next((node for node in nodes if node.type == "EMISSION" or surface.is_surface(node)), None)
+
+
+def set_surface(obj: Any, kind: str) -> None:
+    """Gives a moon another surface; what both kinds have keeps its value."""
+    node, material = emission_node(obj), obj.active_material
+    old = {socket.name: socket.default_value for socket in node.inputs if hasattr(socket, "default_value")}
+    color = tuple(old["Color"])[:3]
+    tree = material.node_tree
+    target = next(link.to_socket for link in tree.links if link.from_node == node)
+    new = tree.nodes.new("ShaderNodeEmission") if kind == "EVEN" else surface.add(tree, kind)
+    new.location = node.location
+    for socket in new.inputs:
+        if socket.name in old and socket.name != "Color" and hasattr(socket, "default_value"):
+            socket.default_value = old[socket.name]
+    new.inputs["Color"].default_value = (*color, 1.0)
+    tree.nodes.remove(node)
+    tree.links.new(new.outputs[0], target)
+    if hasattr(obj, "glimmer"):
+        obj.glimmer.is_sphere = kind == "EVEN"
 
 
 def _sphere(rings: int, segments: int) -> tuple[list[tuple[float, float, float]], list[list[int]]]:

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add > Glimmer > Moon, and Five Moons."""
+"""Add > Glimmer > Moon, and Five Moons; surfaces and orbits of moons."""
 
 from typing import Any
 
 import bpy
 
+from . import orbit
 from .camera import eye_of, is_seen, upright
 from .framing import frame, look_pitch, stand
 from .ground import field_points, floor_below
-from .moon import FIVE_MOONS, Moon, create
+from .kepler import through
+from .moon import FIVE_MOONS, Moon, create, emission_node, set_surface
 
 
 class GLIMMER_OT_add_moon(bpy.types.Operator):
@@ -82,6 +84,73 @@ class GLIMMER_OT_add_five_moons(bpy.types.Operator):
         return {"FINISHED"}
 
 
+class GLIMMER_OT_set_moon_surface(bpy.types.Operator):
+    """Give the moon another surface"""
+
+    bl_idname = "glimmer.set_moon_surface"
+    bl_label = "Surface"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Surface",
+        description="What the moon looks like",
+        items=(
+            ("EVEN", "Even", "An even light, which Glimmer traces as a true sphere"),
+            ("GLOWING", "Glowing", "A light with craters and dark seas"),
+            ("LIT", "Lit", "Craters and seas that other lights fall on: it has phases"),
+            ("BLACK", "Black", "It swallows all light but for a faint rim"),
+        ),
+    )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        return emission_node(context.object) is not None and context.object.active_material.library is None
+
+    def execute(self, context: Any) -> set[str]:
+        set_surface(context.object, self.kind)
+        return {"FINISHED"}
+
+
+class GLIMMER_OT_put_on_orbit(bpy.types.Operator):
+    """Let the object run around the 3D cursor, on a circle through its place and its highest point. Drivers that need
+    no scripts hold it there, in playback and in every render"""
+
+    bl_idname = "glimmer.put_on_orbit"
+    bl_label = "Put on an Orbit"
+    bl_options = {"REGISTER", "UNDO"}
+
+    period: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Period", description="Frames for once around", default=250.0, min=1e-3, soft_max=10000.0
+    )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        obj = context.object
+        return obj is not None and obj.library is None and not obj.glimmer_orbit.enabled
+
+    def execute(self, context: Any) -> set[str]:
+        obj, scene = context.object, context.scene
+        path = through(tuple(obj.location), scene.frame_current, self.period, tuple(scene.cursor.location))
+        orbit.put_on_orbit(obj, path)
+        return {"FINISHED"}
+
+
+class GLIMMER_OT_take_off_orbit(bpy.types.Operator):
+    """Take the object off its orbit; it stays where it is"""
+
+    bl_idname = "glimmer.take_off_orbit"
+    bl_label = "Take off the Orbit"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        return context.object is not None and context.object.glimmer_orbit.enabled
+
+    def execute(self, context: Any) -> set[str]:
+        orbit.take_off_orbit(context.object)
+        return {"FINISHED"}
+
+
 def _select(context: Any, objects: list[Any]) -> None:
     for other in context.selected_objects:
         other.select_set(False)
@@ -90,6 +159,12 @@ def _select(context: Any, objects: list[Any]) -> None:
     context.view_layer.objects.active = objects[0]
 
 
-_CLASSES = (GLIMMER_OT_add_moon, GLIMMER_OT_add_five_moons)
+_CLASSES = (
+    GLIMMER_OT_add_moon,
+    GLIMMER_OT_add_five_moons,
+    GLIMMER_OT_set_moon_surface,
+    GLIMMER_OT_put_on_orbit,
+    GLIMMER_OT_take_off_orbit,
+)
 
 register, unregister = bpy.utils.register_classes_factory(_CLASSES)

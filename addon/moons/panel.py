@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Radius, colour and radiance of a moon in its data properties and in the sidebar."""
+"""Radius, surface and orbit of a moon in its data properties and in the sidebar."""
 
 from typing import Any
 
@@ -21,8 +21,18 @@ class _MoonPanel:
         layout.use_property_split = True
         node = emission_node(context.object)
         layout.prop(context.object.glimmer_moon, "radius")
-        layout.prop(node.inputs["Color"], "default_value", text="Color")
-        layout.prop(node.inputs["Strength"], "default_value", text="Strength")
+        for socket in node.inputs:
+            if socket.enabled and hasattr(socket, "default_value") and socket.name != "Weight":
+                layout.prop(socket, "default_value", text=socket.name)
+        layout.operator_menu_enum("glimmer.set_moon_surface", "kind")
+        orbit = context.object.glimmer_orbit
+        if not orbit.enabled:
+            layout.operator("glimmer.put_on_orbit", icon="DRIVER")
+            return
+        layout.label(text="Orbit", icon="DRIVER")
+        for name in ("center", "semi_axis", "eccentricity", "period", "phase", "inclination", "node", "periapsis"):
+            layout.prop(orbit, name)
+        layout.operator("glimmer.take_off_orbit", icon="X")
 
 
 class GLIMMER_PT_moon(_MoonPanel, bpy.types.Panel):

@@ -29,6 +29,7 @@ from moon_checks import (
     five_moons_are_in_the_picture,
     the_menu_adds_all_there_is,
 )
+from world_checks import moons_have_surfaces, orbits_are_keplers_everywhere
 
 FieldParameters = load("hexfield.parameters").FieldParameters
 layout_of = load("hexfield.layout").lay_out
@@ -665,6 +666,8 @@ CHECKS: tuple[Callable[[], None], ...] = (
     a_new_file_shows_field_and_moons,
     a_world_is_added_in_one_step,
     the_menu_adds_all_there_is,
+    orbits_are_keplers_everywhere,
+    moons_have_surfaces,
     registration_goes_both_ways,
 )
 
