@@ -24,13 +24,28 @@ from . import (
     properties,
     reports,
     ui,
+    worlds,
 )
 from .native import library, render
 from .scene.problems import GlimmerError
 from .viewport import redraw
 from .viewport import session as view_session
 
-_PARTS = (properties, reports, failure, frame_files, curve_files, engine, redraw, operators, hexfield, moons, haze, ui)
+_PARTS = (
+    properties,
+    reports,
+    failure,
+    frame_files,
+    curve_files,
+    engine,
+    redraw,
+    operators,
+    hexfield,
+    moons,
+    haze,
+    worlds,
+    ui,
+)
 _registered: list[object] = []
 _log = logging.getLogger(__name__)
 

@@ -6,6 +6,7 @@ from typing import Any
 import bpy
 
 OPERATORS = (
+    ("glimmer.add_glimmer_world", "WORLD_DATA"),
     ("glimmer.add_world", "WORLD"),
     ("glimmer.add_hexagon_field", "MOD_ARRAY"),
     ("glimmer.add_moon", "SPHERE"),
@@ -19,7 +20,10 @@ class GLIMMER_MT_add(bpy.types.Menu):
 
     def draw(self, context: bpy.types.Context) -> None:
         for name, icon in OPERATORS:
-            self.layout.operator(name, icon=icon)
+            if name == "glimmer.add_glimmer_world":
+                self.layout.operator_menu_enum(name, "preset", icon=icon)
+            else:
+                self.layout.operator(name, icon=icon)
 
 
 def draw_in_add_menu(menu: Any, context: bpy.types.Context) -> None:

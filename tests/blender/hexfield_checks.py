@@ -29,7 +29,12 @@ from moon_checks import (
     five_moons_are_in_the_picture,
     the_menu_adds_all_there_is,
 )
-from world_checks import moons_have_surfaces, orbits_are_keplers_everywhere
+from world_checks import (
+    cameras_find_their_views,
+    moons_have_surfaces,
+    orbits_are_keplers_everywhere,
+    worlds_come_whole,
+)
 
 FieldParameters = load("hexfield.parameters").FieldParameters
 layout_of = load("hexfield.layout").lay_out
@@ -668,12 +673,16 @@ CHECKS: tuple[Callable[[], None], ...] = (
     the_menu_adds_all_there_is,
     orbits_are_keplers_everywhere,
     moons_have_surfaces,
+    worlds_come_whole,
+    cameras_find_their_views,
     registration_goes_both_ways,
 )
 
 
 def main(path: str) -> None:
-    parts = [load(name) for name in ("hexfield", "moons", "haze", "operators.five_moons_world", "ui.add_menu")]
+    parts = [
+        load(name) for name in ("hexfield", "moons", "haze", "worlds", "operators.five_moons_world", "ui.add_menu")
+    ]
     for part in parts:
         part.register()
     results = {}

@@ -115,6 +115,9 @@ class _Layout:
 
     menu = operator
 
+    def operator_menu_enum(self, name: str, _property: str, **_: Any) -> None:
+        self.drawn.append(name)
+
     def separator(self) -> None:
         pass
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of orbits and surfaces of moons, run by hexfield_checks.py."""
+"""Checks of orbits, surfaces of moons and whole worlds, run by hexfield_checks.py."""
 
+import math
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -102,3 +103,71 @@ def moons_have_surfaces() -> None:
     assert np.abs(np.array(obj.matrix_world.translation) - before).max() < 1e-4
     assert not bpy.ops.glimmer.put_on_orbit.poll()
     assert bpy.ops.glimmer.take_off_orbit() == {"FINISHED"}
+
+
+def worlds_come_whole() -> None:
+    """Every preset: plates to the horizon, its moons in the picture at its frame, haze, a camera over the ground."""
+    presets = load("worlds.presets").PRESETS
+    is_seen = load("moons.camera").is_seen
+    emission_node = load("moons.moon").emission_node
+    for key, preset in presets.items():
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        assert bpy.ops.glimmer.add_glimmer_world(preset=key, plate_radius=4.0) == {"FINISHED"}
+        scene = bpy.context.scene
+        bpy.context.view_layer.update()
+        moons = [obj for obj in scene.objects if emission_node(obj) is not None]
+        assert len(moons) == len(preset.moons) and scene.frame_current == preset.frame
+        for moon in moons:
+            assert is_seen(scene, scene.camera, tuple(moon.matrix_world.translation)), (key, moon.name)
+        assert load("haze.nodes").node_of(scene.world) is not None
+        land = next(obj for obj in scene.objects if obj.type == "MESH" and obj.glimmer_field.enabled)
+        values = np.empty(3 * len(land.data.vertices), np.float32)
+        land.data.vertices.foreach_get("co", values)
+        points = values.reshape(-1, 3)
+        eye = np.array(scene.camera.matrix_world.translation)
+        assert points[np.hypot(points[:, 0], points[:, 1]) < 8.0, 2].max() < eye[2]
+        # The far end of the field lies below the horizon, which no plate beyond it could rise over.
+        far = points[np.hypot(points[:, 0], points[:, 1]) > 0.97 * preset.reach()]
+        dip = math.sqrt(2.0 * eye[2] / preset.planet_radius)
+        highest = (far[:, 2] - eye[2]) / np.hypot(far[:, 0], far[:, 1])
+        assert highest.max() < -0.3 * dip, (key, highest.max(), dip)
+        first = [tuple(moon.matrix_world.translation) for moon in moons]
+        scene.frame_set(preset.frame + 40)
+        for place, moon in zip(first, moons, strict=True):
+            assert np.linalg.norm(np.array(place) - moon.matrix_world.translation) > 1.0
+
+
+def cameras_find_their_views() -> None:
+    assert bpy.ops.glimmer.add_glimmer_world(preset="CONVERGENCE", plate_radius=4.0) == {"FINISHED"}
+    scene, camera = bpy.context.scene, bpy.context.scene.camera
+    emission_node, is_seen = load("moons.moon").emission_node, load("moons.camera").is_seen
+    camera.rotation_euler = (1.2, 0.0, 2.5)
+    bpy.context.view_layer.update()
+    assert bpy.ops.glimmer.best_view() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    for moon in (obj for obj in scene.objects if emission_node(obj) is not None):
+        assert is_seen(scene, camera, tuple(moon.matrix_world.translation)), moon.name
+    scene.frame_start, scene.frame_end = 1, 31
+    assert bpy.ops.glimmer.fly_over(length=60.0, height=5.0) == {"FINISHED"}
+    points = load("moons.ground").field_points(bpy.context.view_layer)
+    places = []
+    for frame in (1, 16, 31):
+        scene.frame_set(frame)
+        places.append(np.array(camera.matrix_world.translation))
+        near = np.hypot(*(points - places[-1])[:, :2].T) < 4.0
+        assert places[-1][2] > points[near, 2].max()
+    assert math.isclose(np.linalg.norm((places[2] - places[0])[:2]), 60.0, rel_tol=1e-4)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.location = (3.0, 4.0, 2.0)
+    scene.collection.objects.link(camera)
+    scene.camera, scene.frame_start, scene.frame_end = camera, 1, 40
+    scene.frame_set(1)
+    assert bpy.ops.glimmer.orbit_camera() == {"FINISHED"}
+    for frame, place in ((1, (3.0, 4.0, 2.0)), (11, (-4.0, 3.0, 2.0)), (21, (-3.0, -4.0, 2.0))):
+        scene.frame_set(frame)
+        matrix = camera.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world
+        assert np.abs(np.array(matrix.translation) - place).max() < 1e-4, (frame, matrix.translation)
+        look = -np.array(matrix)[:3, 2]
+        assert np.abs(look + np.array(place) / np.linalg.norm(place)).max() < 1e-4
