@@ -15,7 +15,13 @@ if TYPE_CHECKING:
 Window = tuple[float, float, float, float]
 
 # What each panorama type is made by, besides the sensor.
-POLYNOMIAL = tuple(f"fisheye_polynomial_k{i}" for i in range(5))
+POLYNOMIAL = (
+    "fisheye_polynomial_k0",
+    "fisheye_polynomial_k1",
+    "fisheye_polynomial_k2",
+    "fisheye_polynomial_k3",
+    "fisheye_polynomial_k4",
+)
 SETTINGS: dict[str, tuple[str, ...]] = {
     "EQUIRECTANGULAR": ("latitude_min", "latitude_max", "longitude_min", "longitude_max"),
     "FISHEYE_EQUIDISTANT": ("fisheye_fov",),

@@ -33,6 +33,8 @@ NEEDS_NO_PANEL = {
     "RenderSettings.border_min_y": "set by a drag in the view",
     "Scene.frame_current": "in the timeline",
     "Scene.frame_subframe": "in the timeline",
+    "RenderSettings.use_multiview": "in the header of Blender's panel Stereoscopy",
+    "RenderSettings.views_format": "in Blender's panel Stereoscopy, as tabs",
     "Scene.use_nodes": "the compositor's",
     "WorldMistSettings.height": "another thing of that name is meant",
     "AreaLight.shadow_soft_size": "those of points and spots are meant",
