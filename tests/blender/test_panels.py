@@ -16,11 +16,13 @@ SCRIPT = Path(__file__).with_name("panels_script.py")
 # Settings that are named in the exporter's source and that no panel needs, and why. Without a type: of every type.
 NEEDS_NO_PANEL = {
     "Camera.angle": "the lens seen as an angle, which Blender's panel shows for another unit",
+    "CyclesLightSettings.use_multiple_importance_sampling": "only Cycles' picture depends on it, which a notice says",
     "CyclesRenderSettings.filter_width": "Glimmer's own is meant",
     "CyclesRenderSettings.max_bounces": "Glimmer's own, and those of lamps and the world are meant",
     "CyclesRenderSettings.samples": "Glimmer's own is meant",
     "CyclesRenderSettings.seed": "Glimmer's own is meant",
     "CyclesRenderSettings.tile_size": "Glimmer's own is meant",
+    "CyclesRenderSettings.use_fast_gi": "only Cycles' picture depends on it, which a notice says",
     "CyclesRenderSettings.use_denoising": "Glimmer's own is meant",
     "CyclesRenderLayerSettings.use_denoising": "Glimmer's own is meant",
     "GlimmerSceneSettings.max_depth": "drawn as max_bounces",
