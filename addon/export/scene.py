@@ -56,7 +56,7 @@ from .sphere import NotASphereError, read_sphere
 from .strands import Strands, curve_strands, particle_strands, tubes
 from .translate.image import Images
 from .translate.surface import ACTIVE_UV, VOLUME_DENSITY, named
-from .visibility import note_differences
+from .visibility import note_differences, shadow_terminator
 from .world import export_world, warn_of_black_sky
 
 if TYPE_CHECKING:
@@ -374,6 +374,7 @@ class _Collector:
             rays=seen.rays,
             is_holdout=seen.is_holdout,
             interior=self._interior(item, materials),
+            shadow_terminator=shadow_terminator(item) if mesh.normals is not None else 0.0,
         )
 
     def _add_moving(self, part: Object, middle: Floats, randoms: Floats, steps: Floats) -> None:

@@ -62,6 +62,18 @@ def visibility(
     return Visibility(rays, is_holdout)
 
 
+def _terminator(item: bpy.types.Object, names: tuple[str, str], usual: float) -> float:
+    """A setting of Blender's own, before that one of Cycles', which is not there where that is switched off."""
+    settings = item if hasattr(item, names[0]) else getattr(item, "cycles", None)
+    return float(getattr(settings, names[0], getattr(settings, names[1], usual)))
+
+
+def shadow_terminator(item: bpy.types.Object) -> float:
+    """The cosine below which lamps see a smooth surface as curved."""
+    names = ("shadow_terminator_geometry_offset", "shadow_terminator_geometry_offset")
+    return min(max(_terminator(item, names, 0.1), 0.0), 1.0)
+
+
 def world_rays(world: bpy.types.World | None) -> Rays:
     """The settings are Cycles' own, and not there where it is switched off."""
     settings = getattr(world, "cycles_visibility", None)
@@ -77,6 +89,10 @@ def note_differences(item: bpy.types.Object, notices: Notices) -> None:
     where = place(item.name)
     if item.type != "LIGHT" and item.is_shadow_catcher:
         notices.add(where, "a shadow catcher is not supported; it is rendered as an ordinary object")
+    if item.type != "LIGHT" and _terminator(
+        item, ("shadow_terminator_shading_offset", "shadow_terminator_offset"), 0.0
+    ):
+        notices.add(where, "the shading offset of the shadow terminator is not supported; it is 0")
     linking = getattr(item, "light_linking", None)
     if linking is None:
         return

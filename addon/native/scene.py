@@ -190,6 +190,7 @@ class NativeScene:
         desc.color = item.color
         desc.visible, desc.holdout = int(item.rays), int(item.is_holdout)
         desc.matte, desc.light_group = item.matte, item.light_group
+        desc.shadow_terminator = item.shadow_terminator
         randoms = np.ascontiguousarray(item.random, np.float32).reshape(-1)
         desc.random = float(randoms[0])
         if matrices is not None and len(randoms) == len(matrices):

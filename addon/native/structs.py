@@ -217,6 +217,7 @@ class ObjectDesc(ctypes.Structure):
         ("interior", c_void_p),
         ("matte", c_uint32),
         ("light_group", c_uint32),
+        ("shadow_terminator", c_float),
     ]
 
 

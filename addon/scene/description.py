@@ -459,6 +459,7 @@ class Object:
     interior: Medium | None = None  # what the mesh is filled with, whatever its materials
     matte: int = 0  # 1 + its place in SceneDescription.mattes; 0: none
     light_group: int = 0  # of what shines of it, from 1 on; 0: none
+    shadow_terminator: float = 0.0  # cosine below which lamps see a smooth mesh as curved
 
 
 @dataclass(frozen=True, eq=False)

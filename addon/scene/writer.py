@@ -173,6 +173,8 @@ class _Writer:
             result["attributes"] = {entry.name: self._save("attribute", entry.values) for entry in item.attributes}
         if item.object_index:
             result["index"] = item.object_index
+        if item.shadow_terminator:
+            result["shadow_terminator"] = item.shadow_terminator
         if item.interior is not None:
             result["interior"] = self._interior(item.interior)
         return {**result, **_visibility(item)}

@@ -237,9 +237,10 @@ GLIMMER_API glimmer_result glimmer_scene_add_program(glimmer_scene *scene, const
                                                      uint32_t *program);
 /* From now on a parameter of a material is an output of a program, cut to the parameter's range wherever it is
    evaluated; the value that it was added with no longer counts. key: of a number or colour of the material's type (see
-   glimmer_parameter_info), or "normal", the shading normal in the world. Not for glass. Or, of all, "aov_1", "aov_2",
-   ...: a number, colour or vector that GLIMMER_PASS_AOV and those behind it show as it is; of parts of mixes it is not
-   asked. */
+   glimmer_parameter_info), or the shading normal in the world: "normal", or where a bump turns it "bumped_normal" or
+   "bumped_normal_cubic", which take diffuse light near the terminator of the smooth surface, by the masking of facets
+   as steep or by a cubic. Not for glass. Or, of all, "aov_1", "aov_2", ...: a number, colour or vector that
+   GLIMMER_PASS_AOV and those behind it show as it is; of parts of mixes it is not asked. */
 GLIMMER_API glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t material, const char *key,
                                               uint32_t program, uint32_t output);
 /* The environment's radiance is an output of a program, in place of glimmer_scene_set_environment. It is asked for
@@ -309,8 +310,10 @@ typedef struct glimmer_object_desc {
     const struct glimmer_attribute *attributes; /* per instance: what programs find in place of the mesh's own */
     const glimmer_medium_desc *interior;        /* what the mesh, which should be closed, is filled with, whatever its
                                                    materials; null for nothing. Where several are, they add up. */
-    uint32_t matte;       /* what the object matte pass shows, up to 2^24; 0, the default, is shown as nothing */
-    uint32_t light_group; /* of what shines of it, 1 to GLIMMER_MAX_LIGHT_GROUPS; 0, the default: none */
+    uint32_t matte;          /* what the object matte pass shows, up to 2^24; 0, the default, is shown as nothing */
+    uint32_t light_group;    /* of what shines of it, 1 to GLIMMER_MAX_LIGHT_GROUPS; 0, the default: none */
+    float shadow_terminator; /* 0 (default) to 1: cosine to the surface below which lamps see a smooth mesh as the
+                                curved surface that its normals stand for, not as triangles */
 } glimmer_object_desc;
 
 GLIMMER_API void glimmer_object_init(glimmer_object_desc *desc);

@@ -68,8 +68,8 @@ std::vector<double> read_motion(const Value &value) {
 void read_object(const Value &value, glimmer_scene *scene, const Programs &programs, const Materials &materials,
                  Meshes &meshes, SceneFolder &folder) {
     value.expect_object({"mesh", "material", "materials", "to_world", "motion", "instances", "index", "indices",
-                         "color", "random", "randoms", "attributes", "visible", "holdout", "interior", "matte",
-                         "light_group"});
+                         "color", "random", "randoms", "attributes", "visible", "holdout", "shadow_terminator",
+                         "interior", "matte", "light_group"});
     const std::string name = value.path();
     glimmer_object_desc desc;
     glimmer_object_init(&desc);
@@ -121,6 +121,8 @@ void read_object(const Value &value, glimmer_scene *scene, const Programs &progr
     }
     if (const auto random = value.find("random"))
         desc.random = random->single(kUnit);
+    if (const auto terminator = value.find("shadow_terminator"))
+        desc.shadow_terminator = terminator->single(kUnit);
     const size_t count = desc.instances ? desc.instance_count : 1;
     std::vector<float> randoms;
     if (const auto file = value.find("randoms")) {

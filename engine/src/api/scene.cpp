@@ -250,6 +250,8 @@ glimmer_result glimmer_scene_add_object(glimmer_scene *scene, const glimmer_obje
         out.holdout = d.holdout != 0;
         out.matte = checked_matte(d.matte, what);
         out.light_group = checked_light_group(d.light_group, what);
+        check_range(double(d.shadow_terminator), 0, 1, what + ": shadow_terminator");
+        out.shadow_terminator = d.shadow_terminator;
         out.attributes = checked_attributes(d.attribute_count, d.attributes,
                                             {kNoRows, kNoRows, kNoRows, out.instances.size()}, what);
         out.interior = checked_interior(d.interior, s, what);

@@ -25,7 +25,8 @@ struct Instance {
     uint32_t object_index;              ///< for the AOV
     uint32_t motion = kNone;            ///< of Accel::motions(); kNone: still
     RayMask visible = kEveryRay;
-    bool holdout = false; ///< the camera sees nothing there, and nothing behind it
+    bool holdout = false;        ///< the camera sees nothing there, and nothing behind it
+    float shadow_terminator = 0; ///< integrator/shadow_terminator.h
 
     Vec3f normal_to_world(const Vec3f &n) const {
         return Vec3f(dot(normal_matrix[0], n), dot(normal_matrix[1], n), dot(normal_matrix[2], n));

@@ -135,6 +135,10 @@ void SceneBuilder::build_geometry() {
             instance->object = index;
             instance->visible = object.visible;
             instance->holdout = object.holdout;
+            if (!mesh->normals.empty()) {
+                instance->shadow_terminator = object.shadow_terminator;
+                scene_.has_shadow_terminators |= object.shadow_terminator > 0;
+            }
             instance->object_index =
                 object.object_indices.size() > 1 ? object.object_indices[i] : object.object_indices[0];
             if (instance->motion != kNone)

@@ -49,6 +49,7 @@ struct ObjectDescription {
     bool moves() const { return !motion.empty(); }
     RayMask visible = kEveryRay;
     bool holdout = false;
+    float shadow_terminator = 0;
     std::vector<MeshAttribute> attributes; ///< a row an instance
     std::optional<MediumDescription> interior;
     uint32_t matte = 0;

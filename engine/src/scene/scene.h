@@ -71,13 +71,14 @@ class Scene {
     const Medium *within_glass() const { return glass_medium ? &*glass_medium : nullptr; }
     std::unique_ptr<Accel> accel;
     LightSet lights;
-    bool moves = false;            ///< anything, while the shutter is open
-    bool has_surfaces = false;     ///< anything that scatters light
-    bool has_dielectrics = false;  ///< bodies of glass
-    bool has_transmission = false; ///< surfaces that scatter light to their other side; glass among them
-    bool has_transparency = false; ///< surfaces that let some light straight through
-    bool has_subsurface = false;   ///< bodies in which light wanders beneath the surface
-    bool has_visibility = false;   ///< objects, lights or an environment that some rays do not see; holdouts
+    bool moves = false;                  ///< anything, while the shutter is open
+    bool has_surfaces = false;           ///< anything that scatters light
+    bool has_dielectrics = false;        ///< bodies of glass
+    bool has_transmission = false;       ///< surfaces that scatter light to their other side; glass among them
+    bool has_transparency = false;       ///< surfaces that let some light straight through
+    bool has_subsurface = false;         ///< bodies in which light wanders beneath the surface
+    bool has_shadow_terminators = false; ///< smooth meshes that lamps see as curved
+    bool has_visibility = false;         ///< objects, lights or an environment that some rays do not see; holdouts
     /// Shadow rays and paths do not meet the same, or not the same lights: what one of the two finds, the other may
     /// not, and how they share the light shows in the picture (Cycles' weights, integrator/mis.h).
     bool techniques_differ = false;

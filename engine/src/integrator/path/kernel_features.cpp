@@ -15,6 +15,7 @@ KernelFeatures needed_by(const Scene &scene, const EstimatorFlags &flags, bool s
     f.transmission = scene.has_transmission;
     f.transparency = scene.has_transparency;
     f.subsurface = scene.has_subsurface;
+    f.terminators = scene.has_shadow_terminators;
     f.bvh = !scene.accel->without_bvh();
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         f.other_lights |= !is_emissive_sphere(scene.lights[i]);

@@ -23,6 +23,7 @@ struct KernelFeatures {
     bool transmission = false;    ///< surfaces that scatter light to their other side; glass among them
     bool transparency = false;    ///< surfaces that let some light straight through
     bool subsurface = false;      ///< bodies in which light wanders beneath the surface
+    bool terminators = false;     ///< smooth meshes that lamps see as curved
     bool bvh = false;             ///< there are meshes, or more spheres than are tried one by one
     bool other_lights = false;    ///< lights other than emissive spheres
     bool visibility = false;      ///< objects, lights or an environment that some rays do not see
@@ -39,7 +40,7 @@ struct FeatureText {
     const char *name; ///< for benchmarks
     const char *left_out;
 };
-inline constexpr std::array<FeatureText, 13> kFeatureTexts{{
+inline constexpr std::array<FeatureText, 14> kFeatureTexts{{
     {&KernelFeatures::medium, "medium", "no fog: no distance sampling, no transmittance"},
     {&KernelFeatures::bounded_media, "bounded media", ""},
     {&KernelFeatures::varying_media, "varying media", ""},
@@ -48,6 +49,7 @@ inline constexpr std::array<FeatureText, 13> kFeatureTexts{{
     {&KernelFeatures::transmission, "transmission", "no glass: no search for the bodies around the camera"},
     {&KernelFeatures::transparency, "transparency", ""},
     {&KernelFeatures::subsurface, "subsurface scattering", ""},
+    {&KernelFeatures::terminators, "shadow terminators", ""},
     {&KernelFeatures::bvh, "BVH", "a few spheres alone: no BVH"},
     {&KernelFeatures::other_lights, "other lights",
      "no lights but spheres that shine: no lamps, shining meshes, suns or sky"},
@@ -56,7 +58,7 @@ inline constexpr std::array<FeatureText, 13> kFeatureTexts{{
     {&KernelFeatures::passes, "passes", ""},
 }};
 inline constexpr KernelFeatures kAllFeatures{true, true, true, true, true, true, true,
-                                             true, true, true, true, true, true};
+                                             true, true, true, true, true, true, true};
 
 /// Whether a kernel with the features `has` can render what needs `needed`.
 constexpr bool covers(const KernelFeatures &has, const KernelFeatures &needed) {

@@ -50,8 +50,8 @@ constexpr KernelFeatures without_passes(KernelFeatures features) {
 
 // The sets of features that a kernel is compiled for.
 inline constexpr KernelFeatures kSpheres{.medium = true};
-inline constexpr KernelFeatures kSurfaces{.surfaces = true, .bvh = true};
-inline constexpr KernelFeatures kSurfacesInFog{.medium = true, .surfaces = true, .bvh = true};
+inline constexpr KernelFeatures kSurfaces{.surfaces = true, .terminators = true, .bvh = true};
+inline constexpr KernelFeatures kSurfacesInFog{.medium = true, .surfaces = true, .terminators = true, .bvh = true};
 inline constexpr KernelFeatures kEverythingButPasses = without_passes(kAllFeatures);
 
 /// The first kernel of the table, least features first, that has what is needed.

@@ -15,6 +15,7 @@
 #include "integrator/path/path_state.h"
 #include "integrator/path/tuning.h"
 #include "integrator/roulette.h"
+#include "integrator/shadow_terminator.h"
 #include "integrator/visibility.h"
 #include "light/equiangular_table.h"
 #include "medium/phase.h"
@@ -381,6 +382,9 @@ class PathSample {
     /// Adds the light of the scene's lights at a surface, weighted against `branches` BSDF samples that go on.
     void sample_lights_at(const State &state, const Interaction &surface, const Bsdf &bsdf,
                           const OrientedSurface &oriented_surface, uint32_t branches, Lobes lobes);
+    /// Where rays to a light start at a smooth mesh; aims the light sample from there.
+    [[gnu::noinline]] static Vec3f start_on_curve(const ShadowTerminator &terminator, const Interaction &surface,
+                                                  const Vec3f &geometric, LightSample &light);
     /// Turns the path into one that leaves a rough lobe along wi, sampled with density `pdf` per solid angle.
     void leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi, float pdf);
     /// What programs know of a ray that was sampled from these closures.

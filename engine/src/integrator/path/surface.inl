@@ -6,6 +6,7 @@
 #include "integrator/mis.h"
 #include "integrator/path/path_sample.h"
 #include "integrator/shading_frame.h"
+#include "integrator/shadow_terminator.h"
 #include "integrator/subsurface_walk.h"
 #include "integrator/vpl/bounded_fraction.h"
 
@@ -253,6 +254,21 @@ void PathSample<F>::light_surface(const State &state, const Interaction &surface
 }
 
 template <KernelFeatures F>
+Vec3f PathSample<F>::start_on_curve(const ShadowTerminator &terminator, const Interaction &surface,
+                                    const Vec3f &geometric, LightSample &light) {
+    const Vec3f offset = terminator.offset(light.direction);
+    const bool beneath = !(dot(light.direction, geometric) > 0);
+    const Vec3f origin =
+        (beneath ? surface.origin_towards(geometric) : surface.origin_towards(light.direction)) + offset;
+    if (light.distance < kInfinity && length_squared(offset) > 0) { // the same point of the light
+        const Vec3f way = light.direction * light.distance - offset;
+        light.distance = length(way);
+        light.direction = way / light.distance;
+    }
+    return origin;
+}
+
+template <KernelFeatures F>
 void PathSample<F>::sample_lights_at(const State &state, const Interaction &surface, const Bsdf &bsdf,
                                      const OrientedSurface &oriented_surface, uint32_t branches, Lobes lobes) {
     const Frame &frame = oriented_surface.frame;
@@ -263,6 +279,10 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
     const bool both_sides = F.transmission && transmits(bsdf);
     const Medium *medium = medium_of(state);
     const Vec3f x = light_sampling_origin(surface, geometric);
+    const ShadowTerminator terminator =
+        F.terminators && scene().has_shadow_terminators
+            ? ShadowTerminator(*scene().accel, surface, geometric, frame.z, state.ray.time)
+            : ShadowTerminator();
     struct Candidate {
         LightSample light;
         Rgb value; ///< what it brings unless it is hidden
@@ -282,7 +302,8 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         const Vec3f wi = frame.to_local(light->direction);
         const float side = dot(light->direction, geometric);
         const bool beyond = both_sides && side < 0;
-        if (beyond ? !(wi.z < 0) : !(side > 0) || !(wi.z > 0))
+        const bool beneath = F.terminators && terminator && !(side > 0); // the triangle's horizon
+        if (beyond ? !(wi.z < 0) : !(side > 0 || beneath) || !(wi.z > 0))
             continue;
         const Rgb f_cos = eval_for(*light, bsdf, wo, wi);
         Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
@@ -294,7 +315,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         if (lobes != Lobes::all)
             value *= fraction_of(lobes, vertex_fraction(oriented_surface, f_cos, wi));
         if (!light->delta && !is_black(value))
-            value *= uses_cycles_weights()
+            value *= uses_cycles_weights() || beneath // where no BSDF sample is taken
                          ? cycles_weight(light->pdf / float(scene().lights.size()), pdf(bsdf, wo, wi))
                          : balance(choice.probability * light->pdf, float(branches) * pdf(bsdf, wo, wi));
         if (is_black(value))
@@ -316,7 +337,10 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         const float tested = few_rays ? std::min(tuning::kShadowRaysBeyondFirstSurface * c.part / parts, 1.0f) : 1.0f;
         if (tested < 1 && !(sampler_.next_1d() < tested))
             continue;
-        const Vec3f origin = surface.origin_towards(c.light.direction);
+        Vec3f origin = surface.origin_towards(c.light.direction);
+        if constexpr (F.terminators)
+            if (terminator)
+                origin = start_on_curve(terminator, surface, geometric, c.light);
         const Rgb arriving = c.value * visibility(origin, c.light, state.ray.time, surface.error);
         if (is_black(arriving))
             continue;
