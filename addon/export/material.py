@@ -55,6 +55,9 @@ if TYPE_CHECKING:
 # Below this the engine's GGX is a mirror; its mirror keeps the colour at every angle, as Blender's does.
 MIRROR_ALPHA = 1e-4
 
+# From here on bumps mask themselves as facets do; before, a cubic softened their terminator.
+BUMPS_AS_FACETS_FROM = (4, 5)
+
 # From here on Cycles' rough diffuse surfaces keep the light that their facets send on to each other.
 MULTIPLE_SCATTERING_FROM = (4, 3)
 
@@ -63,9 +66,6 @@ SEPARABLE_MASKING_BEFORE = (3, 5)
 
 # From here on the angle at each facet says how much of light rough glass reflects; before, that at the surface.
 FACETS_REFLECT_FROM = (4, 0)
-
-# Of a normal that a bump or normal map turns.
-UNSOFTENED = "bumps that light grazes are brighter than in Cycles, which softens them there"
 
 # Inputs that are left out where they are not 0.
 LEFT_OUT = {
@@ -108,7 +108,16 @@ def export_material(
     except TooLargeError as error:
         notices.add(where, f"its nodes cannot be rendered, since {error}; its viewport colour is used")
         return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index, volume=volume)
-    return NamedMaterial(material.name_full, named, material.pass_index, program, normal, volume, shown)
+    return NamedMaterial(
+        material.name_full,
+        named,
+        material.pass_index,
+        program,
+        normal,
+        volume=volume,
+        aovs=shown,
+        normal_key=shaders.normal_key(),
+    )
 
 
 def export_volume(
@@ -209,6 +218,13 @@ class _Shaders:
                 found[i + 1] = value if isinstance(value, Op) else op("combine", *shown)
         return tuple(found.items())
 
+    def normal_key(self) -> str:
+        """How Cycles softens the terminator of bumps: not of those by displacement."""
+        settings = getattr(self.material, "cycles", None)
+        if self.normal is self.nodes.bumped_normal or not getattr(settings, "use_bump_map_correction", True):
+            return "normal"
+        return "bumped_normal" if self.version >= BUMPS_AS_FACETS_FROM else "bumped_normal_cubic"
+
     def volume(self, grids: dict[str, Grid] | None = None) -> Medium | None:
         """grids: of a volume object, which is filled with it by them."""
         nodes = Nodes(self.nodes.tree, self.where, self.notices, self.nodes.images)
@@ -250,9 +266,6 @@ class _Shaders:
             return  # the surface's own
         if self.normal is self.nodes.bumped_normal:
             self.normal = normal if isinstance(normal, Op) else op("combine", *normal)
-            settings = getattr(self.material, "cycles", None)
-            if getattr(settings, "use_bump_map_correction", True):
-                self.nodes.notice(source.node, UNSOFTENED)
         elif normal is not self.normal:
             self.nodes.notice(source.node, "shaders of one material cannot have several normals; the first is used")
 

@@ -331,7 +331,7 @@ class _MaterialAdder:
             self._program = self._programs.add(item.name, item.program)
         number = self._add(item.name, item.material)
         if item.normal is not None:
-            self._programs.bind(number, "normal", self._program, item.normal.index)
+            self._programs.bind(number, item.normal_key, self._program, item.normal.index)
         for slot, output in item.aovs:
             self._programs.bind(number, f"aov_{slot}", self._program, output.index)
         return number

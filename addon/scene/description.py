@@ -372,6 +372,7 @@ class NamedMaterial:
     pass_index: int = 0  # what Blender's material index pass shows
     program: Program | None = None  # what of the material varies
     normal: Output | None = None  # the shading normal, in the world
+    normal_key: str = "normal"  # or "bumped_normal", "bumped_normal_cubic": how the terminator of bumps is softened
     volume: Medium | None = None  # what Blender fills the objects with that have the material
     aovs: tuple[tuple[int, Output], ...] = ()  # what the engine's AOV passes show of it, which count from 1
 

@@ -103,7 +103,7 @@ class _Writer:
         program = None if item.program is None else self._program(f"material {name}", item.program)
         result = _material(item.material, program)
         if item.normal is not None:
-            result["normal"] = _parameter(item.normal, program)
+            result[item.normal_key] = _parameter(item.normal, program)
         if item.aovs:
             result["aovs"] = {f"aov_{slot}": _parameter(output, program) for slot, output in item.aovs}
         return result

@@ -3,6 +3,7 @@
 #include "text.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -10,6 +11,9 @@
 
 namespace glimmer {
 namespace {
+
+/// What may give a material's shading normal: one of them.
+constexpr std::array kNormals{"normal", "bumped_normal", "bumped_normal_cubic"};
 
 /// The parameters of each type, from the engine's table.
 class Schema {
@@ -124,13 +128,17 @@ class MaterialReader {
         std::vector<std::string_view> keys{"type"};
         for (const auto *info : schema_.parameters(type))
             keys.emplace_back(info->key);
-        keys.emplace_back("normal");
+        keys.insert(keys.end(), kNormals.begin(), kNormals.end());
         keys.emplace_back("aovs");
         value.expect_object(keys);
         std::vector<glimmer_parameter> parameters;
         std::vector<std::pair<const char *, Value>> varying; // the engine says what may vary
-        if (const auto normal = value.find("normal"))
-            varying.emplace_back("normal", *normal);
+        for (const char *key : kNormals)
+            if (const auto normal = value.find(key)) {
+                if (!varying.empty())
+                    value.fail("has more than one normal");
+                varying.emplace_back(key, *normal);
+            }
         if (const auto aovs = value.find("aovs")) {
             std::vector<std::string_view> names;
             for (const std::string &aov : aov_keys_)

@@ -72,6 +72,10 @@ uint32_t find_row(const char *key, const MaterialDescription &material, bool is_
     const bool has_normal = material.type != MaterialType::light && material.type != MaterialType::null;
     if (has_normal && consider("normal", false))
         return ParameterBinding::kNormal;
+    if (has_normal && consider("bumped_normal", false))
+        return ParameterBinding::kBumpedNormal;
+    if (has_normal && consider("bumped_normal_cubic", false))
+        return ParameterBinding::kBumpedNormalCubic;
     std::string message = what + ": \"";
     message += wanted;
     message += "\" cannot vary; allowed: ";

@@ -5,6 +5,7 @@
 
 #include "bsdf/baseline_metal.h"
 #include "bsdf/brushed.h"
+#include "bsdf/bump.h"
 #include "bsdf/burley.h"
 #include "bsdf/conductor.h"
 #include "bsdf/dielectric.h"
@@ -97,6 +98,7 @@ class Bsdf : public std::span<const WeightedLobe> {
     using std::span<const WeightedLobe>::span;
     explicit Bsdf(std::span<const WeightedLobe> lobes) : std::span<const WeightedLobe>(lobes) {}
     float eta = 1; ///< index on the other side / index on the side of wo: 1 but at the boundary of a dielectric
+    const BumpShadow *bump = nullptr; ///< what diffuse lobes lose; null: nothing
 };
 
 inline bool is_specular(const Lobe &lobe) {
@@ -134,6 +136,8 @@ inline float weight_towards(const Bsdf &bsdf, const WeightedLobe &lobe, const Ve
 }
 /// Whether f(wo, wi) is f(wi, wo).
 inline bool is_reciprocal(const Bsdf &bsdf) {
+    if (bsdf.bump)
+        return false;
     for (const WeightedLobe &l : bsdf) {
         const auto *metal = std::get_if<Conductor>(&l.lobe);
         const auto *dielectric = std::get_if<Dielectric>(&l.lobe);
@@ -197,20 +201,28 @@ inline std::optional<BsdfSample> sample(const Lobe &lobe, const Vec3f &wo, Vec2f
         lobe);
 }
 
-/// f |cos_i| of the smooth lobes.
-inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
-    Rgb sum;
-    for (const WeightedLobe &l : bsdf)
-        sum += eval(l.lobe, wo, wi, bsdf.eta) * weight_towards(bsdf, l, wo);
-    return sum;
+/// What bumps leave of a lobe's light from wi.
+inline float bump_factor(const Bsdf &bsdf, const Lobe &lobe, const Vec3f &wi) {
+    return bsdf.bump && is_diffuse(lobe) ? bump_shadow(*bsdf.bump, wi) : 1.0f;
 }
 
-/// The same of the lobes that reflect diffusely, that reflect otherwise, or that transmit: those that are asked for.
+/// The same sum of the lobes that reflect diffusely, that reflect otherwise, or that transmit: those that are asked
+/// for.
 inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi, bool diffuse, bool glossy, bool transmission) {
     Rgb sum;
     for (const WeightedLobe &l : bsdf)
         if (wi.z < 0 ? transmission : is_diffuse(l.lobe) ? diffuse : glossy)
-            sum += eval(l.lobe, wo, wi, bsdf.eta) * weight_towards(bsdf, l, wo);
+            sum += eval(l.lobe, wo, wi, bsdf.eta) * (weight_towards(bsdf, l, wo) * bump_factor(bsdf, l.lobe, wi));
+    return sum;
+}
+
+/// f |cos_i| of the smooth lobes.
+inline Rgb eval(const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {
+    if (bsdf.bump) [[unlikely]]
+        return eval(bsdf, wo, wi, true, true, true);
+    Rgb sum;
+    for (const WeightedLobe &l : bsdf)
+        sum += eval(l.lobe, wo, wi, bsdf.eta) * weight_towards(bsdf, l, wo);
     return sum;
 }
 
@@ -247,6 +259,8 @@ inline std::optional<BsdfSample> sample(const Bsdf &bsdf, const Vec3f &wo, float
     if (s->specular || smooth == 1) {
         s->weight *= weight_towards(bsdf, *chosen, wo) / chosen->probability;
         s->pdf *= chosen->probability;
+        if (bsdf.bump && !s->specular) [[unlikely]]
+            s->weight *= bump_factor(bsdf, chosen->lobe, s->wi);
         return s;
     }
     const float density = pdf(bsdf, wo, s->wi);

@@ -16,6 +16,22 @@ inline bool is_above_horizon(const Vec3f &shading, const Vec3f &wo) {
     return dot(wo, shading) > 1e-6f;
 }
 
+/// A bumped normal, turned towards the true one as far as it takes for what is seen along wo to be reflected above the
+/// surface. All on the side of wo. In the plane of both normals, at the angle p from the true one, what is reflected
+/// has the cosine r cos(2p - q) to it, (r, q) being wo there in polar coordinates.
+inline Vec3f bent_to_reflect(const Vec3f &bumped, const Vec3f &geometric, const Vec3f &wo) {
+    constexpr float kLeastCosine = 0.01f, kLeastShare = 0.9f; // of the reflected direction; or a share of that of wo
+    const float z = dot(wo, geometric), least = std::min(kLeastShare * z, kLeastCosine);
+    const Vec3f reflected = bumped * (2 * dot(bumped, wo)) - wo;
+    const Vec3f aside = bumped - geometric * dot(bumped, geometric);
+    const float size = length(aside);
+    if (dot(reflected, geometric) >= least || !(size > 0))
+        return bumped;
+    const float x = dot(wo, aside) / size, r = std::hypot(x, z);
+    const float angle = 0.5f * (std::atan2(x, z) + std::acos(std::min(least / std::max(r, 1e-7f), 1.0f)));
+    return aside * (std::sin(angle) / size) + geometric * std::cos(angle);
+}
+
 /// The factor that flux has over radiance where a mirror or dielectric, shaded about n, sends it from wi towards wo
 /// (both away from the surface): |wi.n| / |wi.ng| * |wo.ng| / |wo.n| (Veach 1997, section 5.3), without the 1/eta^2 of
 /// radiance that is refracted. wo_n: wo.n as it was sampled in the frame of n.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace glimmer {
 
@@ -24,11 +25,18 @@ float height(const std::array<Vec3f, 3> &v, const std::array<Vec3f, 3> &n, const
     return above ? std::max(clear, paraboloid / 2) : std::min(-clear, paraboloid / 2);
 }
 
+/// The normal without bumps.
+Vec3f smooth_normal(const Interaction &surface, const Vec3f &geometric, const Vec3f &shading) {
+    if (surface.softening == BumpSoftening::none)
+        return shading;
+    return surface.smooth_normal * std::copysign(1.0f, dot(geometric, surface.geometric_normal));
+}
+
 } // namespace
 
 ShadowTerminator::ShadowTerminator(const Accel &geometry, const Interaction &surface, const Vec3f &geometric,
                                    const Vec3f &shading, ShutterTime time)
-    : geometric_(geometric), shading_(shading) {
+    : geometric_(geometric), smooth_(smooth_normal(surface, geometric, shading)) {
     if (surface.instance == kNone)
         return;
     const Instance &opening = geometry.instances()[surface.instance];
@@ -57,8 +65,8 @@ ShadowTerminator::ShadowTerminator(const Accel &geometry, const Interaction &sur
 Vec3f ShadowTerminator::offset(const Vec3f &to_light) const {
     if (!(cosine_ > 0))
         return {};
-    const float of_shading = std::abs(dot(shading_, to_light)), of_geometric = dot(geometric_, to_light);
-    const float amount = of_shading < cosine_ ? 2 - (of_geometric + of_shading) / cosine_ : 1 - of_geometric / cosine_;
+    const float of_smooth = std::abs(dot(smooth_, to_light)), of_geometric = dot(geometric_, to_light);
+    const float amount = of_smooth < cosine_ ? 2 - (of_geometric + of_smooth) / cosine_ : 1 - of_geometric / cosine_;
     return away_ * std::clamp(amount, 0.0f, 1.0f);
 }
 

@@ -13,18 +13,20 @@ class ShadowTerminator {
   public:
     /// None.
     ShadowTerminator() = default;
-    /// geometric, shading: unit normals on the side that is lit.
+    /// geometric: the unit normal on the side that is lit. shading: that which it is shaded with.
     ShadowTerminator(const Accel &geometry, const Interaction &surface, const Vec3f &geometric, const Vec3f &shading,
                      ShutterTime time);
 
-    /// Whether lights beneath the horizon of the triangle may count.
     explicit operator bool() const { return cosine_ > 0; }
+    /// Whether a light is above the curved surface, which may be beneath the horizon of the triangle. Bumps do not see
+    /// what is beneath it, though they turn there.
+    bool faces(const Vec3f &to_light) const { return dot(smooth_, to_light) > 0; }
     /// How far rays towards a light start from the triangle.
     Vec3f offset(const Vec3f &to_light) const;
 
   private:
     float cosine_ = 0; ///< below which light grazes
-    Vec3f geometric_, shading_;
+    Vec3f geometric_, smooth_;
     Vec3f away_; ///< from the triangle to the curved surface
 };
 

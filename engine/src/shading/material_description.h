@@ -2,6 +2,7 @@
 // A material as a caller describes it: its type and the values of its parameters, checked but not yet built.
 #pragma once
 
+#include "bsdf/bump.h"
 #include "bsdf/burley.h"
 #include "bsdf/ggx.h"
 #include "bsdf/sheen.h"
@@ -40,10 +41,18 @@ enum class FacetScattering : uint8_t { single, multiple, tinted };
 
 /// A parameter that an output of a program gives.
 struct ParameterBinding {
-    static constexpr uint32_t kNormal = 0xffffffffu; ///< the shading normal, which is no parameter
+    /// The shading normal, which is no parameter; the last two soften the terminator of what it turns (bsdf/bump.h).
+    static constexpr uint32_t kNormal = 0xffffffffu, kBumpedNormal = kNormal - 1, kBumpedNormalCubic = kNormal - 2;
 
-    uint32_t row; ///< of kParameters (material_schema.h), or kNormal
+    uint32_t row; ///< of kParameters (material_schema.h), or one of those
     uint32_t program, output;
+
+    bool is_normal() const { return row >= kBumpedNormalCubic; }
+    BumpSoftening softening() const {
+        return row == kBumpedNormal        ? BumpSoftening::microfacet
+               : row == kBumpedNormalCubic ? BumpSoftening::cubic
+                                           : BumpSoftening::none;
+    }
 };
 
 /// The values of the parameters of all types under the names that they have in scene files. material_schema.h says

@@ -147,7 +147,7 @@ void add_leaves(std::span<const MaterialDescription> nodes, uint32_t index, cons
     if (outputs && !outputs->bindings[index].empty()) {
         own = *node;
         for (const ParameterBinding &b : outputs->bindings[index])
-            if (b.row != ParameterBinding::kNormal)
+            if (!b.is_normal())
                 std::visit(Put{kParameters[b.row].info, (*outputs)(b), own}, kParameters[b.row].member);
         node = &own;
     }

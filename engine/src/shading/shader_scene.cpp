@@ -20,9 +20,8 @@ size_t leaves(std::span<const MaterialDescription> nodes, uint32_t index) {
 }
 
 bool gives(std::span<const ParameterBinding> bindings, std::string_view key) {
-    return std::ranges::any_of(bindings, [key](const ParameterBinding &b) {
-        return b.row != ParameterBinding::kNormal && key == kParameters[b.row].info.key;
-    });
+    return std::ranges::any_of(
+        bindings, [key](const ParameterBinding &b) { return !b.is_normal() && key == kParameters[b.row].info.key; });
 }
 
 /// The programs of a material and its parts, and whether any of them may shine.
@@ -96,7 +95,7 @@ void ShaderScene::add(uint32_t material) {
         out.value_count += uint32_t(programs[p]->output_count());
     }
     for (const ParameterBinding &b : bindings[material])
-        if (b.row == ParameterBinding::kNormal)
+        if (b.is_normal())
             out.normal = b;
     varying_of[material] = uint32_t(materials.size());
     materials.push_back(std::move(out));
@@ -195,6 +194,8 @@ Shading ShaderScene::shade(uint32_t varying, Interaction &surface, const View &v
     flatten(nodes, material.root, &outputs, flat);
     if (material.normal) {
         const bool back = dot(view.wo, surface.geometric_normal) < 0;
+        surface.softening = material.normal->softening();
+        surface.smooth_normal = surface.shading_normal;
         surface.shading_normal = above(outputs(*material.normal) * (back ? -1.0f : 1.0f), surface.geometric_normal);
     }
     const std::span<WeightedLobe> room = arena.take(flat.lobes.size());

@@ -3,6 +3,7 @@
 // is found by a ShadingPoint when they do.
 #pragma once
 
+#include "bsdf/bump.h"
 #include "geometry/accel.h"
 #include "math/vec.h"
 #include "shading/arrival.h"
@@ -23,7 +24,9 @@ struct Interaction {
     uint32_t body;             ///< the instance, or instances + sphere: which closed surface this is
     uint32_t instance = kNone; ///< kNone: a sphere
     uint32_t primitive = kNone;
-    float u = 0, v = 0; ///< barycentrics of the triangle's vertices 1 and 2
+    float u = 0, v = 0;                            ///< barycentrics of the triangle's vertices 1 and 2
+    BumpSoftening softening = BumpSoftening::none; ///< of a bump that turned the shading normal
+    Vec3f smooth_normal;                           ///< what it was before; set where there is a softening
 
     /// Where a ray that leaves to `direction` starts: off the surface, on its side, by the rounding error of the hit
     /// (Waechter and Binder, Ray Tracing Gems ch. 6, with the bound taken from the coordinates rather than a constant).

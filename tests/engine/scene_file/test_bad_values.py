@@ -158,7 +158,8 @@ BAD = [
     Bad(
         ("materials", "wax", "alpha"),
         0.1,
-        'materials.wax: unknown key "alpha"; allowed here are type, albedo, roughness, facets, emission, normal',
+        'materials.wax: unknown key "alpha"; allowed here are type, albedo, roughness, facets, emission, normal,'
+        " bumped_normal, bumped_normal_cubic, aovs",
     ),
     Bad(("materials", "wax", "emission"), -0.1, "materials.wax.emission: -0.1 is not a number of 0 or more"),
     Bad(("materials", "wax", "emission"), 1e39, "materials.wax.emission: 1e+39 is too large; up to 3.4e38 is allowed"),

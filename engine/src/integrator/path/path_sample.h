@@ -339,10 +339,20 @@ class PathSample {
         float eta = 1;                                           ///< Bsdf::eta
         bool bounds_interior = false;                            ///< what is transmitted enters a body or leaves it
         [[no_unique_address]] typename State::Interior beyond{}; ///< the bodies around it then
+        BumpShadow bump{};                                       ///< in the frame, where a bump turned the normal
     };
     /// Whether anything is near a surface, in one direction.
     void pass_occlusion(const State &state, const Interaction &surface, const Shading &shading,
                         const OrientedSurface &at);
+    /// The same where a bump turned the normal (bsdf/bump.h).
+    [[gnu::noinline]] static OrientedSurface orient_bumped(const Interaction &surface, const Bsdf &bsdf,
+                                                           const Vec3f &wo);
+    /// Tells a BSDF what there is to know of the surface.
+    static void set_surface(Bsdf &bsdf, const OrientedSurface &at) {
+        bsdf.eta = at.eta;
+        if (at.bump.softening != BumpSoftening::none)
+            bsdf.bump = &at.bump;
+    }
     std::optional<OrientedSurface> orient(const State &state, const Interaction &surface, const Shading &shading) const;
     /// Whether a sampled direction is on the side of the true surface that it claims: a shading normal may promise what
     /// cannot be kept.

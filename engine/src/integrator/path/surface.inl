@@ -37,6 +37,8 @@ auto PathSample<F>::orient(const State &state, const Interaction &surface, const
                                    true,           crossing.beyond};
         }
     const Vec3f wo = -state.ray.direction;
+    if (surface.softening != BumpSoftening::none) [[unlikely]]
+        return orient_bumped(surface, shading.bsdf, wo);
     const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
     const Vec3f geometric = surface.geometric_normal * side;
     Vec3f shading_normal = surface.shading_normal * side;
@@ -47,6 +49,22 @@ auto PathSample<F>::orient(const State &state, const Interaction &surface, const
     if (!(wo_local.z > 0))
         return std::nullopt;
     return OrientedSurface{frame, geometric, wo_local};
+}
+
+template <KernelFeatures F>
+auto PathSample<F>::orient_bumped(const Interaction &surface, const Bsdf &bsdf, const Vec3f &wo) -> OrientedSurface {
+    const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
+    const Vec3f geometric = surface.geometric_normal * side;
+    bool bends = surface.softening == BumpSoftening::cubic; // in later versions diffuse lobes alone do not ask for it
+    for (const WeightedLobe &l : bsdf)
+        bends |= !is_diffuse(l.lobe);
+    const Vec3f bumped = surface.shading_normal * side;
+    const Frame frame(bends ? bent_to_reflect(bumped, geometric, wo) : bumped);
+    Vec3f outgoing = frame.to_local(wo);
+    outgoing.z = std::max(outgoing.z, 1e-4f); // a bump that turns away from the eye is seen all the same
+    OrientedSurface at{frame, geometric, outgoing};
+    at.bump = {frame.to_local(surface.smooth_normal * side), surface.softening};
+    return at;
 }
 
 template <KernelFeatures F>
@@ -61,7 +79,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
     const auto oriented_surface = orient(state, surface, shading);
     if (!oriented_surface)
         return;
-    bsdf.eta = oriented_surface->eta;
+    set_surface(bsdf, *oriented_surface);
     const Frame &frame = oriented_surface->frame;
     const Vec3f &geometric = oriented_surface->geometric, &wo_local = oriented_surface->wo;
     if (state.seen_directly() && !clear_glass)
@@ -230,7 +248,7 @@ void PathSample<F>::light_surface(const State &state, const Interaction &surface
     const auto oriented_surface = orient(state, surface, shading);
     if (is_specular(bsdf) || !oriented_surface)
         return;
-    bsdf.eta = oriented_surface->eta;
+    set_surface(bsdf, *oriented_surface);
     sample_lights_at(state, surface, bsdf, *oriented_surface, 1, Lobes::all);
     const auto s = sample(bsdf, oriented_surface->wo, sampler_.stratified_1d(dimension(Dimension::candidate_lobe)),
                           sampler_.stratified_2d(dimension(Dimension::candidate_direction)));
@@ -302,8 +320,9 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         const Vec3f wi = frame.to_local(light->direction);
         const float side = dot(light->direction, geometric);
         const bool beyond = both_sides && side < 0;
-        const bool beneath = F.terminators && terminator && !(side > 0); // the triangle's horizon
-        if (beyond ? !(wi.z < 0) : !(side > 0 || beneath) || !(wi.z > 0))
+        const bool above = F.terminators && terminator ? terminator.faces(light->direction) : side > 0;
+        const bool beneath = above && !(side > 0); // the triangle's horizon
+        if (beyond ? !(wi.z < 0) : !above || !(wi.z > 0))
             continue;
         const Rgb f_cos = eval_for(*light, bsdf, wo, wi);
         Rgb value = f_cos * light->radiance * (1 / light->pdf / choice.probability);
