@@ -71,7 +71,7 @@ def test_materials_are_the_engines(library_dir: Path) -> None:
                     structs.ParameterKind.WORD: (*row.words, None)[0],
                 }
                 default = own[key].default
-                if row.kind == structs.ParameterKind.NUMBER:
+                if isinstance(default, float):
                     default = ctypes.c_float(default).value  # as the engine's are
                 assert default == of_kind[row.kind], f"{kind}: {key}"
 
