@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..film.passes import DENOISED_BY, NOISY, RenderPass, engine_names, missing
+from ..film import denoise
+from ..film.passes import COMBINED, DENOISED_BY, NOISY, RenderPass, engine_names, missing
 from ..scene.description import Film, Mist, RenderSettings
 from ..scene.problems import GlimmerError, Notices
 
@@ -105,6 +106,7 @@ def note_missing_passes(view_layer: bpy.types.ViewLayer, notices: Notices) -> No
 def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:
     """Of a 3D view: it goes on until it is good enough to the eye, so only its own limit ends it."""
     settings, render = scene.glimmer, scene.render
+    is_denoised = settings.use_viewport_denoising and denoise.path() is not None
     return RenderSettings(
         integrator=settings.integrator or None,
         samples=settings.viewport_samples or NO_LIMIT,
@@ -112,6 +114,8 @@ def export_view_settings(scene: bpy.types.Scene) -> RenderSettings:
         threads=render.threads if render.threads_mode == "FIXED" else 0,
         max_depth=settings.max_depth if settings.use_max_depth else None,
         max_scatter=settings.max_scatter if settings.use_max_scatter else None,
+        passes=engine_names([COMBINED]) + (DENOISED_BY if is_denoised else ()),
+        denoise=is_denoised,
     )
 
 

@@ -93,6 +93,21 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         min=0,
         soft_max=65536,
     )
+    use_viewport_denoising: bpy.props.BoolProperty(
+        name="Denoise",
+        description="Runs Open Image Denoise over what 3D views in rendered shading show, as this Blender carries it."
+        " A bias: fine detail may be lost or made up",
+        default=False,
+        update=_announce,
+    )
+    viewport_denoising_start: bpy.props.IntProperty(
+        name="Start Sample",
+        description="Samples of every pixel from which on a 3D view is denoised",
+        default=1,
+        min=1,
+        soft_max=64,
+        update=_announce,
+    )
     preview_pause: bpy.props.BoolProperty(
         name="Pause",
         description="Stop rendering 3D views in rendered shading; what changes is still shown, in coarse pixels",

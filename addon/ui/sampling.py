@@ -64,7 +64,16 @@ class GLIMMER_PT_sampling_viewport(_SamplingPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = _settings_layout(self)
-        layout.prop(context.scene.glimmer, "viewport_samples", text="Samples")
+        settings = context.scene.glimmer
+        layout.prop(settings, "viewport_samples", text="Samples")
+        is_there = denoise.path() is not None
+        column = layout.column()
+        column.enabled = is_there
+        column.prop(settings, "use_viewport_denoising")
+        if not is_there:
+            draw_wrapped(layout, context, denoise.ABSENT_IN_VIEWS, "INFO")
+        elif settings.use_viewport_denoising:
+            column.prop(settings, "viewport_denoising_start")
 
 
 class GLIMMER_PT_sampling_render(_SamplingPanel, bpy.types.Panel):

@@ -16,13 +16,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ..film.passes import ALPHA, with_alpha
+from ..film import denoise
+from ..film.passes import ALPHA, DENOISED_BY, with_alpha
 from ..native.library import load
 from ..native.open_set import OpenSet
 from ..native.render import NativeRender, Progress, Tile, open_render
 from ..native.scene import MeshCache
 from ..scene.description import SceneDescription
-from ..scene.problems import describe
+from ..scene.problems import GlimmerError, describe
 
 COARSE = 4  # pixels of the view in a row that the first picture shows as one
 SETTLE_SECONDS = 0.2  # without a new scene, before the full picture replaces the coarse one
@@ -33,8 +34,9 @@ MIN_COARSE_PIXELS = 64 * 64
 LEAST_REFRESH_SECONDS = 0.1
 MOST_REFRESH_SECONDS = 2.0
 REFRESH_GROWTH = 0.05  # of the time that has been rendered
-# Reading costs render time: no more than this share of it.
+# Reading costs render time: no more than this share of it. Denoising takes longer, and what it shows is worth more.
 MAX_REFRESH_SHARE = 0.1
+MAX_DENOISE_SHARE = 0.3
 
 Pixels = NDArray[np.float32]
 Window = tuple[int, int, int, int]  # x0, y0, x1, y1 from the top left
@@ -51,6 +53,7 @@ class Frame:
     scale: int  # 1 in full
     progress: Progress
     is_whole: bool = True  # or parts of it are still as coarse as the picture before
+    is_denoised: bool = False
 
     @property
     def pixels(self) -> Pixels:
@@ -79,6 +82,7 @@ class _Running:
     shown: tuple[int, bool] = (-1, False)  # the version of its pixels that was read last, and whether it is the end
     shown_at: float = 0.0  # when the first were
     read_again_at: float = 0.0
+    denoised: int = 0  # samples of the last picture that was
     is_paused: bool = False
 
     @property
@@ -150,6 +154,9 @@ class Session:
         self._is_seen = True  # the frame
         self._failure: _Failure | None = None
         self._built = self._reads = 0
+        self._denoises_from = 1
+        self._denoiser: denoise.Denoiser | None = None
+        self._denoising_problem = ""
         self._thread = threading.Thread(target=self._work, name="Glimmer view", daemon=True)
         _open_sessions.add(self)
         self._thread.start()
@@ -173,6 +180,16 @@ class Session:
             if (self._is_paused, self._is_held) != (is_paused, is_held):
                 self._is_paused, self._is_held = is_paused, is_held
                 self._changed.notify_all()
+
+    def denoise_from(self, samples: int) -> None:
+        """Of the scenes whose settings ask for it."""
+        with self._changed:
+            self._denoises_from = samples
+
+    def denoising_problem(self) -> str:
+        """Why pictures are shown as they were rendered; empty while nothing speaks against it."""
+        with self._changed:
+            return self._denoising_problem
 
     def has_news(self) -> bool:
         """Whether `frame` or `failure` would return something that they have not returned yet."""
@@ -222,6 +239,8 @@ class Session:
             scene, number = job
             if scene is not None:
                 self._try_to_show(scene, number)
+        if self._denoiser is not None:
+            self._denoiser.close()
         self._meshes.clear()
         _open_sessions.discard(self)
 
@@ -288,10 +307,14 @@ class Session:
         version = progress.version, progress.ended
         if version == running.shown or (now < running.read_again_at and not progress.ended):
             return
+        if running.denoised == progress.samples > 0 and not progress.ended:
+            return  # half a sample more is not worth the time
+        is_denoised = False
         if progress.samples > 0:
             running.canvas = None
             rgba: Pixels = np.ones((running.whole.height, running.whole.width, 4), np.float32)
             paste(rgba, running.whole, running.pixels(running.whole))
+            is_denoised = self._denoise(running, progress, rgba)
         elif running.canvas is None or not (tiles := running.render.changed_tiles()):
             return
         else:
@@ -299,13 +322,36 @@ class Session:
                 paste(running.canvas, tile, running.pixels(tile))
             rgba = running.canvas.copy()
         running.shown = version
-        self._publish(running, rgba, progress)
+        self._publish(running, rgba, progress, is_denoised)
         end = time.monotonic()
         running.shown_at = running.shown_at or end
-        pause = max(LEAST_REFRESH_SECONDS, REFRESH_GROWTH * (end - running.started), (end - now) / MAX_REFRESH_SHARE)
-        running.read_again_at = end + min(pause, MOST_REFRESH_SECONDS)
+        share, most = MAX_REFRESH_SHARE, MOST_REFRESH_SECONDS
+        if is_denoised:
+            share, most = MAX_DENOISE_SHARE, max(most, (end - now) / MAX_DENOISE_SHARE)
+        pause = max(LEAST_REFRESH_SECONDS, REFRESH_GROWTH * (end - running.started), (end - now) / share)
+        running.read_again_at = end + min(pause, most)
 
-    def _publish(self, running: _Running, rgba: Pixels, progress: Progress) -> None:
+    def _denoise(self, running: _Running, progress: Progress, rgba: Pixels) -> bool:
+        """In place, where it is time. A failure, or a newer scene, leaves the picture as it was rendered."""
+        with self._changed:
+            start = self._denoises_from
+        if not running.scene.settings.denoise or progress.samples < start:
+            return False
+        try:
+            if self._denoiser is None:
+                self._denoiser = denoise.open_denoiser()
+            seen_by = (running.render.read(name, running.whole)[::-1] for name in DENOISED_BY)
+            colors = self._denoiser.quick_picture(rgba[..., :3], *seen_by, lambda: not self._is_stale(running.number))
+        except GlimmerError as error:
+            if not isinstance(error, denoise.StoppedError):
+                with self._changed:
+                    self._denoising_problem = str(error)
+            return False
+        rgba[..., :3] = colors
+        running.denoised = progress.samples
+        return True
+
+    def _publish(self, running: _Running, rgba: Pixels, progress: Progress, is_denoised: bool) -> None:
         film = running.scene.film
         frame = Frame(
             rgba,
@@ -315,6 +361,7 @@ class Session:
             running.scale,
             progress,
             running.canvas is None,
+            is_denoised,
         )
         with self._changed:
             self._reads += 1

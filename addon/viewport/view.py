@@ -92,6 +92,8 @@ class RenderedView:
             else:
                 view = self._view(context, depsgraph, scene, Notices())
                 self._show(replace(self._shown, film=view.film, camera=view.camera, settings=view.settings))
+        if self.session is not None:
+            self.session.denoise_from(scene.glimmer.viewport_denoising_start)
 
     def _show(self, scene: SceneDescription) -> None:
         digest = fingerprint(scene)
@@ -179,6 +181,10 @@ class RenderedView:
             parts.append("Refining the coarse picture")
         else:
             parts.append(status(frame.progress, scene.glimmer.viewport_samples))
+        if frame.is_denoised:
+            parts.append("Denoised, which is a bias")
+        elif problem := (self.session.denoising_problem() if self.session is not None else ""):
+            parts.append(f"Not denoised: {problem}")
         if self._differences:
             parts.append(f"{count_of(self._differences)}: see Render properties > Differs from Cycles")
         return " | ".join(parts)

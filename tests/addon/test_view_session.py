@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The picture of a 3D view, without Blender: one render at a time, coarse before full, read on a thread of its own."""
 
+import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from addon.film import denoise
 from addon.native import library, render
 from addon.native.structs import State
 from addon.scene import description as d
+from addon.scene.problems import GlimmerError
 from addon.viewport import session as sessions
 from addon.viewport.border import border_crop, camera_frame
 
@@ -133,6 +137,84 @@ def test_pixels_are_read_ever_more_seldom(session: sessions.Session, monkeypatch
     assert pauses[0] == pytest.approx(sessions.LEAST_REFRESH_SECONDS, abs=0.011)
     assert pauses[-1] == pytest.approx(sessions.MOST_REFRESH_SECONDS, abs=0.011)
     assert (np.diff(pauses) > -0.011).all()
+
+
+class FakeDenoiser:
+    """Doubles every pixel."""
+
+    def __init__(self) -> None:
+        self.threads: list[str] = []
+        self.is_closed = False
+
+    def quick_picture(self, color: Any, albedo: Any, normal: Any, is_wanted: Callable[[], bool]) -> Any:
+        assert color.shape == albedo.shape == normal.shape
+        self.threads.append(threading.current_thread().name)
+        return 2.0 * color
+
+    def close(self) -> None:
+        self.is_closed = True
+
+
+def denoised_scene(samples: int) -> d.SceneDescription:
+    found = scene(samples=samples)
+    passes = ("combined", "albedo", "normal")
+    return replace(found, settings=replace(found.settings, passes=passes, denoise=True))
+
+
+def test_a_view_is_denoised_from_its_start_sample_on_by_the_thread_that_reads(
+    session: sessions.Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fake = FakeDenoiser()
+    monkeypatch.setattr(denoise, "open_denoiser", lambda: fake)
+    session.denoise_from(2)
+    number = session.show(denoised_scene(samples=4))
+    frames: dict[int, sessions.Frame] = {}
+
+    def collect() -> bool:
+        if session.has_news() and (frame := session.frame()) is not None and frame.is_whole:
+            frames[frame.progress.samples] = frame
+            assert frame.is_denoised == (frame.progress.samples >= 2)
+            factor = 2.0 if frame.is_denoised else 1.0
+            np.testing.assert_allclose(frame.pixels[0, 0], factor * np.array(SKY), rtol=1e-6)
+            return frame.scale == 1 and frame.progress.ended
+        return False
+
+    wait_for(collect)
+    assert frames[4].is_denoised and frames[4].scene == number
+    assert set(fake.threads) == {"Glimmer view"}
+    session.close(wait=True)
+    assert fake.is_closed
+
+
+def test_a_failed_denoiser_leaves_the_picture_as_it_was_rendered(
+    session: sessions.Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail() -> Any:
+        raise GlimmerError("no memory")
+
+    monkeypatch.setattr(denoise, "open_denoiser", fail)
+    session.show(denoised_scene(samples=1))
+    wait_for(lambda: (frame := session.frame()) is not None and frame.scale == 1 and frame.progress.ended)
+    frame = session.frame()
+    assert frame is not None and not frame.is_denoised
+    assert session.denoising_problem() == "no memory"
+
+
+def test_a_newer_scene_stops_the_denoiser(session: sessions.Session, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Endless(FakeDenoiser):
+        def quick_picture(self, color: Any, albedo: Any, normal: Any, is_wanted: Callable[[], bool]) -> Any:
+            self.threads.append("")
+            while is_wanted():
+                time.sleep(0.001)
+            raise denoise.StoppedError("stopped")
+
+    fake = Endless()
+    monkeypatch.setattr(denoise, "open_denoiser", lambda: fake)
+    session.show(denoised_scene(samples=1))
+    wait_for(lambda: bool(fake.threads))
+    number = session.show(scene(samples=1))
+    wait_for(lambda: (frame := session.frame()) is not None and frame.scene == number and frame.progress.ended)
+    assert session.denoising_problem() == ""
 
 
 def test_a_coarse_picture_is_enlarged_to_where_the_tiles_go() -> None:

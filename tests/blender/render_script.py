@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -16,7 +17,7 @@ import inside
 OUT = Path(inside.words()[0])
 glimmer = inside.enable()
 from glimmer import reports  # noqa: E402 - the add-on's name inside Blender
-from glimmer.film import passes  # noqa: E402
+from glimmer.film import denoise, passes  # noqa: E402
 from glimmer.native import render as native_render  # noqa: E402
 from glimmer.properties import scene as scene_properties  # noqa: E402
 
@@ -133,6 +134,27 @@ def denoised() -> None:
     inside.render(OUT / "not_denoised.exr")
     scene.view_layers[0].cycles.denoising_store_passes = False
     scene.glimmer.samples = 8
+    if denoise.find() is not None:
+        facts["quick"] = quickly_denoised()
+
+
+def quickly_denoised() -> dict[str, Any]:
+    """As a 3D view is."""
+    noisy = np.random.default_rng(1).exponential(size=(64, 96, 3)).astype(np.float32)
+    flat = np.full_like(noisy, 0.5)
+    with denoise.open_denoiser() as denoiser:
+        shown = denoiser.quick_picture(noisy, flat, flat, lambda: True)
+        try:
+            denoiser.quick_picture(noisy, flat, flat, lambda: False)
+        except denoise.StoppedError:
+            stopped = True
+        again = denoiser.quick_picture(noisy, flat, flat, lambda: True)
+    return {
+        "mean": float(shown.mean()),
+        "spread": float(shown.std()),
+        "stopped": stopped,
+        "again": float(np.abs(again - shown).max()),
+    }
 
 
 def groups_and_mattes() -> None:

@@ -182,6 +182,15 @@ def test_a_denoised_picture_keeps_the_noisy_one(out: Path, host: Host, facts: di
     np.testing.assert_allclose(shown.mean(axis=(0, 1)), noisy.mean(axis=(0, 1)), rtol=0.05)
 
 
+def test_what_a_view_is_denoised_by_can_be_stopped(host: Host, facts: dict[str, Any]) -> None:
+    if not host.is_module:
+        pytest.skip("Debian's Blender has no denoiser")
+    quick = facts["quick"]  # of an even grey in noise as strong as itself
+    assert quick["mean"] == pytest.approx(1.0, rel=0.1) and quick["spread"] < 0.25
+    assert quick["stopped"]
+    assert quick["again"] == pytest.approx(0.0, abs=1e-5)
+
+
 def test_a_view_layer_may_have_samples_of_its_own(facts: dict[str, Any]) -> None:
     assert facts["layer_samples"] == {"ViewLayer": 8, "Without Ball": 3}
 
