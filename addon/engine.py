@@ -52,7 +52,7 @@ class GlimmerRenderEngine(bpy.types.RenderEngine):
 
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         if self._view is not None:
-            self._view.scene_changed()
+            self._view.scene_changed(depsgraph)
 
     def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         if self._view is None:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Floats
+from .kept import Kept
 from .visibility import SEEN, Visibility, visibility
 
 if TYPE_CHECKING:
@@ -23,10 +24,10 @@ if TYPE_CHECKING:
 
 # Of the instances by one object: the attribute of a name as a colour, (n, 4), or None where there is none of the name.
 AttributeReader = Callable[[str], "NDArray[np.float32] | None"]
-# (The evaluated instancer, the depsgraph) -> [(prototype object, (n, 4, 4) world matrices, their attributes), ...], or
-# None if it is none of its own.
+# (The evaluated instancer, the depsgraph, what earlier reads left) -> [(prototype object, (n, 4, 4) world matrices, their
+# attributes), ...], or None if it is none of its own. Places that did not change are the very same arrays.
 BulkReader = Callable[
-    ["bpy.types.Object", "bpy.types.Depsgraph"], "Sequence[tuple[bpy.types.Object, Any, AttributeReader]] | None"
+    ["bpy.types.Object", "bpy.types.Depsgraph", Kept], "Sequence[tuple[bpy.types.Object, Any, AttributeReader]] | None"
 ]
 
 
@@ -159,6 +160,7 @@ def hash_pairs(x: int, y: NDArray[np.int64]) -> NDArray[np.int64]:
 def placed_objects(
     depsgraph: bpy.types.Depsgraph,
     readers: tuple[BulkReader, ...],
+    kept: Kept,
     is_shown: Callable[[bpy.types.Object], bool] | None = None,
 ) -> Iterator[Placed]:
     """Everything visible. An object is valid only until the next is asked for: an instance's may be a temporary one."""
@@ -172,7 +174,7 @@ def placed_objects(
         if is_shown is not None and not is_shown(item):
             continue
         if _may_have_instances(item):
-            found = next((result for reader in readers if (result := reader(item, depsgraph)) is not None), None)
+            found = next((result for reader in readers if (result := reader(item, depsgraph, kept)) is not None), None)
             if found is None:
                 plain = False
                 continue

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..film.passes import MOST_AOVS
 from ..scene.description import (
@@ -36,6 +37,7 @@ from .grids import NO_READER, NoGridsError, box_of, openvdb, read_grids
 from .groups import with_groups
 from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
 from .instance_attributes import instance_attributes, property_of
+from .kept import Kept, owners_of
 from .light import export_lamp
 from .material import Aov, export_material, export_volume, has_aovs
 from .mesh import export_mesh, flattened
@@ -94,16 +96,19 @@ def export_scene(
     is_shown: Callable[[bpy.types.Object], bool] | None = None,
     constants_only: bool = False,
     set_frame: SetFrame | None = None,
+    kept: Kept | None = None,
 ) -> Exported:
     """Raises GlimmerError when no picture can be made of the scene.
 
     view: of the evaluated scene. version: Blender's. readers: see BulkReader. is_shown: of an evaluated object, for
     what the depsgraph does not know (a local view). constants_only: materials do not vary.
     set_frame: evaluates the depsgraph at another moment; without it nothing is blurred by motion.
+    kept: of earlier exports of this depsgraph that were blurred by no motion either.
     """
     start = time.perf_counter()
     notices = Notices()
-    source = _Source(depsgraph, view, version, readers, is_shown, constants_only)
+    kept = Kept() if kept is None else kept
+    source = _Source(depsgraph, view, version, readers, is_shown, constants_only, kept)
     is_blurred = set_frame is not None and depsgraph.view_layer_eval.use_motion_blur
     shutter = read_shutter(depsgraph.scene_eval, notices) if is_blurred else None
     if shutter is None or set_frame is None:
@@ -114,6 +119,7 @@ def export_scene(
             description = source.describe(notices, record(shutter, source.most_steps(), set_frame, source.look))
         finally:
             set_frame(*now)
+    kept.drop_unused()
     return Exported(description, tuple(notices.items), time.perf_counter() - start, _size(description))
 
 
@@ -125,7 +131,7 @@ def take_notices(
     notices: Notices,
 ) -> None:
     """Only what an export of these evaluated objects would say, without their meshes. Raises nothing."""
-    collector = _Collector(depsgraph, version, notices, False, None)
+    collector = _Collector(depsgraph, version, notices, False, None, Kept())
     collector.reads, collector.images = False, images
     for item in items:
         surface, hair = (placed_once(item, depsgraph.view_layer) for _ in range(2))
@@ -147,9 +153,10 @@ class _Source:
     readers: tuple[BulkReader, ...]
     is_shown: Callable[[bpy.types.Object], bool] | None
     constants_only: bool
+    kept: Kept
 
     def placed(self) -> Iterator[Placed]:
-        return placed_objects(self.depsgraph, self.readers, self.is_shown)
+        return placed_objects(self.depsgraph, self.readers, self.kept, self.is_shown)
 
     def look(self) -> tuple[dict[Hashable, Floats], Camera]:
         """Where everything and the camera stand."""
@@ -168,7 +175,7 @@ class _Source:
         camera = seen.camera
         if recording is not None:
             camera = _moving_camera(camera, scene.camera, recording, notices)
-        collector = _Collector(self.depsgraph, self.version, notices, self.constants_only, recording)
+        collector = _Collector(self.depsgraph, self.version, notices, self.constants_only, recording, self.kept)
         if "uv" in seen.settings.passes:
             collector.shown_attributes = frozenset([ACTIVE_UV])
         if any(name.startswith("aov_") for name in seen.settings.passes):
@@ -250,6 +257,15 @@ def _of_some(attributes: tuple[Attribute, ...], chosen: Any) -> tuple[Attribute,
     return tuple(replace(item, values=item.values[chosen]) for item in attributes)
 
 
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where an object stands: n times."""
+
+    matrices: Floats  # (n, 4, 4)
+    ranks: NDArray[np.intp]  # (n,), what scales of 0 leave of three
+    randoms: Floats  # (n,), 0 to 1
+
+
 class _Collector:
     def __init__(
         self,
@@ -258,8 +274,10 @@ class _Collector:
         notices: Notices,
         constants_only: bool,
         recording: Recording | None,
+        kept: Kept,
     ) -> None:
         self._recording = recording
+        self._kept = kept
         self._constants_only = constants_only
         self.reads = True  # what takes time; else the notices alone are wanted
         self.shown_attributes: frozenset[str] = frozenset()  # of meshes, that passes show
@@ -275,7 +293,7 @@ class _Collector:
         self._override = depsgraph.view_layer_eval.material_override
         scene = depsgraph.scene_eval
         owners = (depsgraph.view_layer_eval, scene, scene.world)
-        self.images = Images(scene.frame_current, lambda name: property_of(owners, name))
+        self.images = Images(scene.frame_current, lambda name: property_of(owners, name), kept)
         self._meshes: dict[tuple[int, int, frozenset[str]], Mesh | None] = {}
         self._null: int | None = None
 
@@ -304,6 +322,18 @@ class _Collector:
         elif kind in UNSUPPORTED:
             self._notices.add(place(placed.item.name), f"objects of type {kind.title()} are not supported and left out")
 
+    def _places(self, placed: Placed) -> Places:
+        if not placed.ids or any(np.ndim(part) == 2 for part in placed.matrices):
+            return self._read_places(placed)
+        # The arrays of a bulk read, which are the same ones as long as they are kept.
+        parts = tuple(placed.matrices)
+        key = placed.item.name, tuple(map(id, parts))
+        return self._kept.get("arranged", (), key, lambda: (parts, self._read_places(placed)))[1]
+
+    def _read_places(self, placed: Placed) -> Places:
+        matrices = self._matrices(placed)
+        return Places(matrices, dimensions_left(matrices), placed.randoms())
+
     def _matrices(self, placed: Placed) -> Floats:
         matrices = placed.all_matrices()
         if not np.isfinite(matrices).all():
@@ -312,9 +342,9 @@ class _Collector:
 
     def _add_surface(self, placed: Placed) -> None:
         item = placed.item
-        matrices = self._matrices(placed)
+        places = self._places(placed)
         settings = getattr(item.original, "glimmer", None)
-        if self.reads and settings is not None and settings.is_sphere and self._add_spheres(placed, matrices):
+        if self.reads and settings is not None and settings.is_sphere and self._add_spheres(placed, places.matrices):
             return
         if self.reads and not item.data.polygons:
             return  # and its materials are nobody's
@@ -322,11 +352,11 @@ class _Collector:
         materials = tuple(self._material(material, item.name) for material in slots)
         mesh = self._mesh(item, len(slots), self._attributes(materials) | self.shown_attributes)
         if mesh is not None:
-            self._add_object(placed, matrices, mesh, materials)
+            self._add_object(placed, places, mesh, materials)
 
-    def _add_object(self, placed: Placed, matrices: Floats, mesh: Mesh, materials: tuple[int, ...]) -> None:
+    def _add_object(self, placed: Placed, places: Places, mesh: Mesh, materials: tuple[int, ...]) -> None:
         """Those whose scale is 0 along an axis are meshes of their own: the engine's instances have an inverse."""
-        dimensions, randoms = dimensions_left(matrices), placed.randoms()
+        matrices, dimensions, randoms = places.matrices, places.ranks, places.randoms
         attributes = instance_attributes(placed, self._attributes(materials))
         solid, flat = dimensions == 3, dimensions == 2
         if flat.any():
@@ -423,27 +453,35 @@ class _Collector:
         numbers = [self._material(material, item.name) for material in slots]
         if not self.reads:
             return
-        for strands in particle_strands(item, is_final, self._attributes(tuple(numbers))):
+        attributes = self._attributes(tuple(numbers))
+        found = self._kept.get(
+            "hair", owners_of(item), attributes, lambda: list(particle_strands(item, is_final, attributes))
+        )
+        for strands in found:
             material = numbers[min(strands.slot, len(numbers) - 1)]
-            self._add_tubes(placed, self._matrices(placed), strands, material)
+            self._add_tubes(placed, strands, material)
 
     def _add_curves(self, placed: Placed) -> None:
         material = self._material(_slots(placed.item)[0], placed.item.name)
-        strands = curve_strands(placed.item.data, self._attributes((material,))) if self.reads else None
+        item, attributes = placed.item, self._attributes((material,))
+        if not self.reads:
+            return
+        strands = self._kept.get("curves", owners_of(item), attributes, lambda: curve_strands(item.data, attributes))
         if strands is not None:
-            self._add_tubes(placed, self._matrices(placed), strands, material)
+            self._add_tubes(placed, strands, material)
 
-    def _add_tubes(self, placed: Placed, matrices: Floats, strands: Strands, material: int) -> None:
+    def _add_tubes(self, placed: Placed, strands: Strands, material: int) -> None:
         name = placed.item.name
         for missing in sorted(self._attributes((material,)) - {key for key, _ in strands.values + strands.along}):
             what = missing.removeprefix(named(""))
             self._notices.add(place(name), f"its material asks for '{what}', which hair has not here; it is 0")
-        found = tubes(name, strands)
+        key = name, id(strands)
+        found = self._kept.get("tubes", owners_of(placed.item), key, lambda: (strands, tubes(name, strands)))[1]
         if found.kept < 1.0:
             self._notices.add(
                 place(name), f"too much hair: {found.kept:.1%} of its strands are rendered, so much the wider"
             )
-        self._add_object(placed, matrices, found.mesh, (material,))
+        self._add_object(placed, self._places(placed), found.mesh, (material,))
 
     def _add_points(self, placed: Placed) -> None:
         """The points of a cloud are spheres."""
@@ -452,7 +490,9 @@ class _Collector:
             return
         if self._motion(placed) is not None:
             self._notices.add(place(item.name), f"points that move while the shutter is open, {HELD_STILL}")
-        points, radii = point_cloud(cloud) if self.reads else (np.zeros((0, 3)), np.zeros(0))
+        points, radii = np.zeros((0, 3)), np.zeros(0)
+        if self.reads:
+            points, radii = self._kept.get("points", owners_of(item), None, lambda: point_cloud(cloud))
         matrices = self._matrices(placed)
         material = self._material(_slots(item)[0], item.name)
         scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
@@ -486,7 +526,7 @@ class _Collector:
                 self._notices.add(where, f"its volume is left out, since {NO_READER}")
             return
         try:
-            grids = read_grids(item.data)
+            grids = self._kept.get("grids", owners_of(item), None, lambda: read_grids(item.data))
         except NoGridsError as why:
             self._notices.add(where, f"its volume is left out, since {why}")
             return
@@ -535,7 +575,7 @@ class _Collector:
         """False, and a notice, for what is marked as a sphere and is none."""
         item = placed.item
         try:
-            sphere = read_sphere(item)
+            sphere = self._kept.get("spheres", owners_of(item), None, lambda: read_sphere(item))
             if sphere is None:
                 return True
             centers, radii = sphere.placed(matrices)
@@ -588,14 +628,9 @@ class _Collector:
             return None
         key = (item.data.as_pointer(), slot_count, attributes)
         if key not in self._meshes:
-            # A copy: triangles and split normals are made in place, and the evaluated mesh belongs to Blender.
-            mesh = item.to_mesh()
-            try:
-                self._meshes[key] = None if mesh is None else export_mesh(mesh, item.data.name, slot_count, attributes)
-            except (RuntimeError, ValueError, IndexError) as error:
-                raise GlimmerError(f"The mesh of object '{item.name}' cannot be read: {error}") from error
-            finally:
-                item.to_mesh_clear()
+            self._meshes[key] = self._kept.get(
+                "meshes", owners_of(item), key, lambda: _read_mesh(item, slot_count, attributes)
+            )
         return self._meshes[key]
 
     def _material(
@@ -607,9 +642,36 @@ class _Collector:
         key = (0 if material is None else material.original.as_pointer(), constants_only)
         if key not in self._material_numbers:
             self._material_numbers[key] = len(self.materials)
-            self.materials.append(
-                export_material(
-                    material, object_name, self._version, self._notices, self.images, constants_only, self.aovs
-                )
+            owners = (key[0],)
+            whose = object_name, constants_only, self.images.frame
+            self.images.asks_others = False
+            found, notices = self._kept.get(
+                "materials",
+                owners,
+                whose,
+                lambda: self._read_material(material, object_name, constants_only),
+                lambda: not self.images.asks_others,
             )
+            for notice in notices:
+                self._notices.add(notice.where, notice.what, notice.code)
+            self.materials.append(found)
         return self._material_numbers[key]
+
+    def _read_material(
+        self, material: bpy.types.Material | None, object_name: str, constants_only: bool
+    ) -> tuple[NamedMaterial, tuple[Notice, ...]]:
+        """And what there is to say of it."""
+        notices = Notices()
+        found = export_material(material, object_name, self._version, notices, self.images, constants_only, self.aovs)
+        return found, tuple(notices.items)
+
+
+def _read_mesh(item: bpy.types.Object, slot_count: int, attributes: frozenset[str]) -> Mesh | None:
+    # A copy: triangles and split normals are made in place, and the evaluated mesh belongs to Blender.
+    mesh = item.to_mesh()
+    try:
+        return None if mesh is None else export_mesh(mesh, item.data.name, slot_count, attributes)
+    except (RuntimeError, ValueError, IndexError) as error:
+        raise GlimmerError(f"The mesh of object '{item.name}' cannot be read: {error}") from error
+    finally:
+        item.to_mesh_clear()

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Attribute, Floats, Mesh
+from . import affine
 from .attributes import FIELDS, is_known
 from .instance import hash_pair
 from .translate.surface import ACTIVE_UV, GENERATED, STRAND_PREFIX, STRAND_TANGENT, named
@@ -56,7 +57,7 @@ class Tubes:
 
 def particle_strands(item: bpy.types.Object, is_final: bool, names: frozenset[str]) -> list[Strands]:
     """Of an evaluated object, a Strands for each of its particle systems that shows hair. names: of attributes."""
-    inverse = np.linalg.inv(np.array(item.matrix_world, np.float64))
+    inverse = affine.inverse(np.array(item.matrix_world, np.float64))
     found: list[Strands] = []
     for modifier in item.modifiers:
         if modifier.type != "PARTICLE_SYSTEM":

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..export.kept import Kept
 from . import node_group
 from .field import prototypes
 from .layout import euler_to_matrix
@@ -25,7 +26,7 @@ class Plates(NamedTuple):
     attribute: Callable[[str], NDArray[np.float32] | None]
 
 
-def export_instances(evaluated_object: Any, depsgraph: Any) -> list[Plates] | None:
+def export_instances(evaluated_object: Any, depsgraph: Any, kept: Kept | None = None) -> list[Plates] | None:
     """The plates of every prototype in use, as depsgraph.object_instances has them. None where the object is no plain
     field (another modifier may have changed the points or the instances): then use the loop. Only valid for the object
     itself; where a collection that holds it is instanced, those matrices come on top.
@@ -39,31 +40,41 @@ def export_instances(evaluated_object: Any, depsgraph: Any) -> list[Plates] | No
     if not (modifier.show_render if depsgraph.mode == "RENDER" else modifier.show_viewport):
         return None
     collection = node_group.plates(modifier)
-    points = read_points(original.data)
-    if collection is None or points is None:
-        return None
-    sources = prototypes(collection)
+    sources = [] if collection is None else prototypes(collection)
     if not sources:
         return None
-    index = points.prototypes % len(sources)  # as the node Instance on Points takes it
+    share = node_group.viewport_share(modifier) if depsgraph.mode == "VIEWPORT" else 1.0
+    world = np.array(evaluated_object.matrix_world, dtype=np.float64)
+    key = len(sources), share, world.tobytes()
+    parts = (kept or Kept()).get(
+        "places", (original.data.as_pointer(),), key, lambda: _split(original.data, len(sources), share, world)
+    )
+    if parts is None:
+        return None
+    return [
+        Plates(source.evaluated_get(depsgraph), matrices, _attribute_of_some(original.data, order))
+        for source, (order, matrices) in zip(sources, parts, strict=True)
+        if len(order)
+    ]
+
+
+def _split(
+    mesh: Any, count: int, share: float, world: NDArray[np.float64]
+) -> list[tuple[NDArray[Any], NDArray[np.float64]]] | None:
+    """Of each of so many prototypes the numbers of its plates, and where they stand. share: of all, that are shown."""
+    points = read_points(mesh)
+    if points is None:
+        return None
+    index = points.prototypes % count  # as the node Instance on Points takes it
     order = np.argsort(index, kind="stable")
-    share = node_group.viewport_share(modifier)
-    if share < 1.0 and depsgraph.mode == "VIEWPORT":
-        own = read_attribute(original.data, node_group.RANDOM)
+    if share < 1.0:
+        own = read_attribute(mesh, node_group.RANDOM)
         if own is None:
             return None
         order = order[own[order, 0] < np.float32(share)]
-    matrices = points.matrices(order, np.array(evaluated_object.matrix_world, dtype=np.float64))
-    bounds = np.searchsorted(index[order], np.arange(len(sources) + 1))
-    return [
-        Plates(
-            source.evaluated_get(depsgraph),
-            matrices[begin:end],
-            _attribute_of_some(original.data, order[begin:end]),
-        )
-        for source, (begin, end) in zip(sources, itertools.pairwise(bounds), strict=True)
-        if end > begin
-    ]
+    matrices = points.matrices(order, world)
+    bounds = np.searchsorted(index[order], np.arange(count + 1))
+    return [(order[begin:end], matrices[begin:end]) for begin, end in itertools.pairwise(bounds)]
 
 
 def _attribute_of_some(mesh: Any, part: NDArray[Any]) -> Callable[[str], NDArray[np.float32] | None]:

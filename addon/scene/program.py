@@ -242,7 +242,7 @@ class _Compiler:
         instructions = []
         for k, op in enumerate(self._order):
             inputs = tuple(self._input(item) for item in op.inputs)
-            for item in {id(item) for item in op.inputs if isinstance(item, Op)}:
+            for item in dict.fromkeys(id(item) for item in op.inputs if isinstance(item, Op)):  # the same every time
                 if last[item] == k and item not in kept:
                     self._free.append(self._register[item])
             if not self._free:

@@ -76,6 +76,12 @@ def _on_load_pre(*_: object) -> None:
     close_all()
 
 
+@persistent  # type: ignore[untyped-decorator]
+def _on_undo(*_: object) -> None:
+    for view in open_views():
+        view.forget()
+
+
 def close_all() -> None:
     for view in open_views():
         _drop(view)
@@ -85,9 +91,13 @@ def close_all() -> None:
 def register() -> None:
     bpy.app.handlers.load_pre.append(_on_load_pre)
     bpy.app.handlers.render_init.append(_on_render_init)
+    bpy.app.handlers.undo_post.append(_on_undo)
+    bpy.app.handlers.redo_post.append(_on_undo)
 
 
 def unregister() -> None:
+    bpy.app.handlers.redo_post.remove(_on_undo)
+    bpy.app.handlers.undo_post.remove(_on_undo)
     bpy.app.handlers.render_init.remove(_on_render_init)
     bpy.app.handlers.load_pre.remove(_on_load_pre)
     if bpy.app.timers.is_registered(_poll):

@@ -13,11 +13,12 @@ import numpy as np
 from ..export.camera import export_view
 from ..export.film import export_view_settings, film_exposure, filter_settings, full_size, transparency
 from ..export.instance import BulkReader
+from ..export.kept import Kept
 from ..export.scene import View, export_scene
 from ..film.display import status
 from ..reports import count_of
 from ..scene.description import Film, SceneDescription
-from ..scene.fingerprint import fingerprint
+from ..scene.fingerprint import Fingerprints
 from ..scene.problems import Notices, describe
 from . import draw
 from .border import border_crop, camera_frame
@@ -36,6 +37,8 @@ class RenderedView:
         self._picture = draw.Picture()
         self._is_dirty = True
         self._read_again_at = 0.0
+        self.kept = Kept()
+        self._fingerprints = Fingerprints()
         self._seen: tuple[Any, ...] = ()  # the view that the last description was made for
         self._shown: SceneDescription | None = None
         self._shown_digest = b""
@@ -48,9 +51,16 @@ class RenderedView:
             self.session.close()
             self.session = None
         self._is_dirty, self._shown, self._shown_digest = True, None, b""
+        self.kept.clear()
 
-    def scene_changed(self) -> None:
+    def scene_changed(self, depsgraph: bpy.types.Depsgraph) -> None:
         self._is_dirty = True
+        self.kept.follow(depsgraph.updates)
+
+    def forget(self) -> None:
+        """Whatever was read may be another now: undo puts data in the place of other data."""
+        self._is_dirty = True
+        self.kept.clear()
 
     def pause(self, is_rendering: bool) -> None:
         """For a final render, which gets the whole machine; or as the artist has asked for."""
@@ -76,7 +86,7 @@ class RenderedView:
         seen = _view_state(context, depsgraph, scene)
         self._is_held = scene.glimmer.preview_pause
         if self._seen[:SOURCES] != seen[:SOURCES]:
-            self._is_dirty = True
+            self.forget()
         if self._is_dirty and time.monotonic() >= self._read_again_at:
             start = time.monotonic()
             self._is_dirty, self._seen = False, seen
@@ -96,7 +106,7 @@ class RenderedView:
             self.session.denoise_from(scene.glimmer.viewport_denoising_start)
 
     def _show(self, scene: SceneDescription) -> None:
-        digest = fingerprint(scene)
+        digest = self._fingerprints.of(scene)
         self._failure = ""
         if digest == self._shown_digest:
             return  # Blender tells of many a change that none can see, a selection for one
@@ -124,6 +134,7 @@ class RenderedView:
             bpy.app.version,
             self._readers,
             is_shown,
+            kept=self.kept,
         )
         self._differences = len(exported.notices)
         return exported.scene

@@ -8,7 +8,8 @@ import pytest
 from numpy.typing import NDArray
 
 from addon.scene import description as d
-from addon.scene.fingerprint import fingerprint
+from addon.scene.fingerprint import LARGE, Fingerprints
+from addon.scene.program import Op, programmed
 
 
 def scene() -> d.SceneDescription:
@@ -46,6 +47,10 @@ CHANGES = {
 }
 
 
+def fingerprint(of: d.SceneDescription) -> bytes:
+    return Fingerprints().of(of)
+
+
 def test_equal_scenes_are_equal() -> None:
     assert fingerprint(scene()) == fingerprint(scene())
 
@@ -55,6 +60,40 @@ def test_every_change_is_seen(change: str) -> None:
     assert fingerprint(CHANGES[change](scene())) != fingerprint(scene())
 
 
+@pytest.mark.parametrize("change", CHANGES)
+def test_every_change_is_seen_after_another_scene(change: str) -> None:
+    one = Fingerprints()
+    first = one.of(scene())
+    assert one.of(CHANGES[change](scene())) != first
+    assert one.of(scene()) == first
+
+
+def test_a_name_is_no_change() -> None:
+    renamed = replace(scene(), objects=(replace(scene().objects[0], name="Other", random=0.5),))
+    assert fingerprint(renamed) == fingerprint(scene())
+
+
+def test_what_is_random_counts_where_a_material_asks_for_it() -> None:
+    grey, _ = programmed(d.Lambert(Op("geometry_number", modes=("object_random",))))
+    _, program = programmed(d.Lambert(Op("geometry_number", modes=("object_random",))))
+    asking = replace(scene(), materials=(d.NamedMaterial("Grey", grey, program=program),))
+    other = replace(asking, objects=(replace(asking.objects[0], random=0.5),))
+    assert fingerprint(other) != fingerprint(asking)
+
+
+def test_large_arrays_are_digested_once() -> None:
+    places = np.broadcast_to(np.eye(4), (LARGE // 8, 4, 4)).copy()
+    many = replace(scene(), objects=(replace(scene().objects[0], instances=places),))
+    one = Fingerprints()
+    first = one.of(many)
+    assert set(one._known) == {id(places)}
+    assert one.of(many) == first
+    assert one.of(replace(many, objects=(replace(many.objects[0], instances=places.copy()),))) == first
+    assert one.of(scene()) == fingerprint(scene()) and not one._known
+
+
 def test_numbers_do_not_run_into_each_other() -> None:
-    assert fingerprint((1, 23)) != fingerprint((12, 3))
-    assert fingerprint(((1,), 2)) != fingerprint((1, (2,)))
+    def with_passes(*names: str) -> d.SceneDescription:
+        return replace(scene(), settings=d.RenderSettings(passes=names))
+
+    assert fingerprint(with_passes("ab", "c")) != fingerprint(with_passes("a", "bc"))

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from addon.export.affine import inverse
+from addon.export.instance import hash_pair, hash_pairs, name_hash
 from addon.export.mesh import smooth_normals, split_by_normal
 
 
@@ -40,3 +42,17 @@ def test_a_vertex_without_faces_has_no_normal() -> None:
     up = np.array([[0, 0, 1]], np.float32)
     normals = smooth_normals(vertices, np.array([0, 1, 2]), np.array([0]), np.array([3]), up)
     np.testing.assert_array_equal(normals, [[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 0]])
+
+
+def test_the_inverse_of_a_place_is_exact_to_rounding() -> None:
+    random = np.random.default_rng(3)
+    for _ in range(20):
+        matrix = np.eye(4)
+        matrix[:3] = random.normal(size=(3, 4))
+        np.testing.assert_allclose(inverse(matrix) @ matrix, np.eye(4), atol=1e-9)
+    assert not inverse(np.diag([1.0, 0.0, 1.0, 1.0])).any()
+
+
+def test_many_pairs_are_hashed_as_one_is() -> None:
+    name = name_hash("Plates 003")
+    assert hash_pairs(name, np.arange(300)).tolist() == [hash_pair(name, i) for i in range(300)]

@@ -9,10 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...scene.program import Op, Texture
 from ..color_space import DATA_SPACES, SRGB, is_known, to_linear
 from ..fold import read_image, stored_pixels
+from ..kept import Kept
 from .values import Triple, Value, math, number, op, triple, vector_math
 
 if TYPE_CHECKING:
@@ -39,16 +41,32 @@ class Images:
     """The images of one export, each read once, and what else nodes know of the scene: its frame, and the property of a
     name of its view layer."""
 
-    def __init__(self, frame: int = 1, layer_property: LayerProperty | None = None) -> None:
+    def __init__(self, frame: int = 1, layer_property: LayerProperty | None = None, kept: Kept | None = None) -> None:
         self.frame = frame
-        self.layer_property: LayerProperty = layer_property or (lambda name: (0.0, 0.0, 0.0, 0.0))
+        self.asks_others = False  # set where something was asked for that belongs to no material
+        self._layer_property: LayerProperty = layer_property or (lambda name: (0.0, 0.0, 0.0, 0.0))
+        self._kept = kept or Kept()
         self._textures: dict[tuple[object, ...], Texture] = {}
+
+    def layer_property(self, name: str) -> tuple[float, float, float, float]:
+        self.asks_others = True
+        return self._layer_property(name)
+
+    def place_of(self, item: Any) -> NDArray[np.float64]:
+        """(4, 4), of another object in the world."""
+        self.asks_others = True
+        return np.array(item.matrix_world, np.float64)
 
     def texture(self, image: Any) -> Texture:
         """Raises ValueError for an image without pixels."""
+        self.asks_others = True
         key = (image.as_pointer(), image.alpha_mode in ("CHANNEL_PACKED", "NONE"))
         if key not in self._textures:
-            self._textures[key] = _read(image)
+            if image.source != "FILE" or image.is_dirty:  # Blender tells of no stroke of a brush
+                self._textures[key] = _read(image)
+            else:
+                owners = (image.as_pointer(),)
+                self._textures[key] = self._kept.get("images", owners, _state(image), lambda: _read(image))
         return self._textures[key]
 
     def file_of(self, image: Any, path: str) -> Texture:
@@ -56,6 +74,7 @@ class Images:
         RuntimeError."""
         import bpy
 
+        self.asks_others = True
         key = (image.as_pointer(), image.alpha_mode, path)
         if key not in self._textures:
             if not Path(path).is_file():
@@ -71,7 +90,19 @@ class Images:
 
     def picture(self, image: Any) -> Any:
         """(height, width, 4) linear light, bottom row first; raises as `texture`."""
+        self.asks_others = True
         return read_image(image)
+
+
+def _state(image: Any) -> tuple[object, ...]:
+    """Another one where its pixels may be others, of an image that nobody paints on."""
+    try:
+        changed = Path(_path(image)).stat().st_mtime_ns
+    except OSError:
+        changed = 0
+    packed = 0 if image.packed_file is None else image.packed_file.size
+    settings = image.alpha_mode, image.colorspace_settings.name
+    return image.name_full, image.filepath, changed, packed, tuple(image.size), settings
 
 
 def _read(image: Any) -> Texture:

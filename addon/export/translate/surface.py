@@ -5,9 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ...scene.program import Op
+from ..affine import inverse
 from .values import Number, Triple, Value, number, op, triple, value_of, vector_math
 
 if TYPE_CHECKING:
@@ -79,7 +78,7 @@ def texture_coordinate(nodes: Nodes, source: Source) -> Value:
     kind = source.output.identifier
     if nodes.is_sky and kind in ("Generated", "Object"):
         if kind == "Object" and source.node.object is not None:
-            return _in_space_of(source.node.object, geometry(nodes, "position"))
+            return _in_space_of(nodes, source.node.object)
         return geometry(nodes, "position")
     if source.node.from_instancer and kind in ("Generated", "UV"):
         return attribute(nodes, INSTANCER_GENERATED if kind == "Generated" else INSTANCER_UV)
@@ -91,14 +90,15 @@ def texture_coordinate(nodes: Nodes, source: Source) -> Value:
         other = source.node.object
         if other is None:
             return geometry(nodes, "object_position")
-        return _in_space_of(other, geometry(nodes, "position"))
+        return _in_space_of(nodes, other)
     names = {"Normal": "object_normal", "Camera": "camera", "Window": "window", "Reflection": "reflection"}
     return geometry(nodes, names[kind])
 
 
-def _in_space_of(item: Any, point: Triple) -> Value:
-    """A point of the world in an object's own space."""
-    rows = np.linalg.inv(np.array(item.matrix_world, np.float64))
+def _in_space_of(nodes: Nodes, item: Any) -> Value:
+    """The point that is shaded in another object's own space."""
+    point = geometry(nodes, "position")
+    rows = inverse(nodes.images.place_of(item))
     parts = [op("dot", (row[0], row[1], row[2]), point) for row in rows[:3].tolist()]
     return vector_math("add", op("combine", *parts), tuple(rows[:3, 3].tolist()))
 
