@@ -8,18 +8,20 @@ What imports bpy is imported by register(), so that layout and plates work witho
 
 
 def register() -> None:
-    from . import handlers, operators, panel, properties
+    from . import handlers, operators, panel, presets, properties
 
     properties.register()
     operators.register()
+    presets.register()
     panel.register()
     handlers.register()
 
 
 def unregister() -> None:
-    from . import handlers, operators, panel, properties
+    from . import handlers, operators, panel, presets, properties
 
     handlers.unregister()
     panel.unregister()
+    presets.unregister()
     operators.unregister()
     properties.unregister()

@@ -42,6 +42,7 @@ def _draw_field(self: Any, context: Any) -> None:
         layout.prop(context.scene.render, "use_lock_interface")
     row = layout.row()
     row.label(text=f"Field of {len(obj.data.vertices)} plates")
+    row.operator_menu_enum("glimmer.hexagon_field_preset", "kind", text="Presets")
     row.operator("glimmer.make_plates_real")
     layout.use_property_split = False
     column = layout.column()

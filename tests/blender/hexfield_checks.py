@@ -595,6 +595,24 @@ def cycles_renders_the_plates() -> None:
     assert abs(covered - expected) < 4 * sigma, (covered, expected, sigma)
 
 
+def presets_change_the_looks_alone() -> None:
+    assert bpy.ops.glimmer.add_hexagon_field(rings=3, seed=9, plate_radius=2.0, hill_octaves=7) == {"FINISHED"}
+    group = bpy.context.object.glimmer_field
+    material, shapes = group.plate_material, set()
+    for kind in load("hexfield.presets").PRESETS:
+        assert bpy.ops.glimmer.hexagon_field_preset(kind=kind) == {"FINISHED"}
+        assert (group.extent, group.rings, group.seed, group.plate_radius) == ("RINGS", 3, 9, 2.0)
+        assert group.enabled and group.plate_material == material
+        mesh = bpy.context.object.data
+        assert len(mesh.vertices) == 37
+        shapes.add(tuple(round(value, 5) for vertex in mesh.vertices for value in vertex.co))
+    assert len(shapes) == len(load("hexfield.presets").PRESETS)
+    bpy.ops.glimmer.hexagon_field_preset(kind="HILLS")
+    hills = FieldParameters()
+    assert math.isclose(group.hill_height, 2.0 * hills.hill_height, rel_tol=1e-6)
+    assert group.hill_octaves == hills.hill_octaves
+
+
 def operators_add_field_and_moons() -> None:
     moon = load("moons.moon")
     scene = bpy.context.scene
@@ -667,6 +685,7 @@ CHECKS: tuple[Callable[[], None], ...] = (
     animations_are_rendered,
     cycles_renders_the_plates,
     operators_add_field_and_moons,
+    presets_change_the_looks_alone,
     five_moons_are_in_the_picture,
     a_new_file_shows_field_and_moons,
     a_world_is_added_in_one_step,
