@@ -78,6 +78,12 @@ class Placed:
     bulk: list[tuple[bpy.types.Object, AttributeReader]] = field(default_factory=list)
     instancer: bpy.types.Object | None = None  # the last of those that it is an instance by
     visibility: Visibility = SEEN
+    label: str = ""  # what an artist knows it by, where the object itself is hidden from sight
+
+    @property
+    def name(self) -> str:
+        """For notices."""
+        return self.label or str(self.item.name)
 
     def all_matrices(self) -> Floats:
         """(n, 4, 4). The last row is that of a matrix of places, whatever rounding made of it."""
@@ -181,7 +187,9 @@ def placed_objects(
             read_in_bulk.add(item.original.as_pointer())
             for prototype, matrices, attribute in found:
                 seen = visibility(prototype, item, layer)
-                placed = bulk.setdefault((prototype.as_pointer(), seen), Placed(prototype, visibility=seen))
+                placed = bulk.setdefault(
+                    (prototype.as_pointer(), seen), Placed(prototype, visibility=seen, label=item.name)
+                )
                 placed.matrices.append(matrices)
                 placed.ids.append(("bulk", item.original.as_pointer(), prototype.original.as_pointer()))
                 placed.bulk.append((item.original, attribute))

@@ -33,6 +33,7 @@ from ..scene.description import (
     Spheres,
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
+from .dense import warn_of_dense_haze
 from .grids import NO_READER, NoGridsError, box_of, openvdb, read_grids
 from .groups import with_groups
 from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
@@ -207,6 +208,8 @@ class _Source:
             medium=medium,
             settings=seen.settings,
         )
+        if scene.world is not None:
+            warn_of_dense_haze(described, scene.world.name, notices)
         return with_groups(described, self.depsgraph)
 
 
@@ -314,13 +317,13 @@ class _Collector:
             self._add_volume(placed)
         elif kind == "LIGHT":
             if self._motion(placed) is not None:
-                self._notices.add(place(placed.item.name), f"a lamp that moves while the shutter is open, {HELD_STILL}")
+                self._notices.add(place(placed.name), f"a lamp that moves while the shutter is open, {HELD_STILL}")
             for matrix in placed.all_matrices():
                 lamp = export_lamp(placed.item, matrix, placed.visibility.rays, self._version, self._notices)
                 if lamp is not None:
                     self.lights.append(lamp)
         elif kind in UNSUPPORTED:
-            self._notices.add(place(placed.item.name), f"objects of type {kind.title()} are not supported and left out")
+            self._notices.add(place(placed.name), f"objects of type {kind.title()} are not supported and left out")
 
     def _places(self, placed: Placed) -> Places:
         if not placed.ids or any(np.ndim(part) == 2 for part in placed.matrices):
@@ -337,7 +340,7 @@ class _Collector:
     def _matrices(self, placed: Placed) -> Floats:
         matrices = placed.all_matrices()
         if not np.isfinite(matrices).all():
-            raise GlimmerError(f"Object '{placed.item.name}' stands at a place that is not finite")
+            raise GlimmerError(f"Object '{placed.name}' stands at a place that is not finite")
         return matrices
 
     def _add_surface(self, placed: Placed) -> None:
@@ -349,7 +352,7 @@ class _Collector:
         if self.reads and not item.data.polygons:
             return  # and its materials are nobody's
         slots = _slots(item)
-        materials = tuple(self._material(material, item.name) for material in slots)
+        materials = tuple(self._material(material, placed.name) for material in slots)
         mesh = self._mesh(item, len(slots), self._attributes(materials) | self.shown_attributes)
         if mesh is not None:
             self._add_object(placed, places, mesh, materials)
@@ -361,17 +364,17 @@ class _Collector:
         solid, flat = dimensions == 3, dimensions == 2
         if flat.any():
             self._notices.add(
-                place(placed.item.name), "is flattened by a scale of 0; it is lit like a flat face, black in Cycles"
+                place(placed.name), "is flattened by a scale of 0; it is lit like a flat face, black in Cycles"
             )
         self._note_deformation(placed.item)
         motion = self._motion(placed)
         if motion is not None and any(shines(self.materials[number].material) for number in materials):
-            self._notices.add(place(placed.item.name), f"shines and moves while the shutter is open, {HELD_STILL}")
+            self._notices.add(place(placed.name), f"shines and moves while the shutter is open, {HELD_STILL}")
             motion = None
         if motion is not None:
             moving = motion.moving & solid
             if moving.sum() < motion.moving.sum():
-                self._notices.add(place(placed.item.name), f"is flat and moves while the shutter is open, {HELD_STILL}")
+                self._notices.add(place(placed.name), f"is flat and moves while the shutter is open, {HELD_STILL}")
             part = self._part(placed, mesh, materials)
             part = replace(part, attributes=_of_some(attributes, moving))
             self._add_moving(part, matrices[moving], randoms[moving], motion.steps[:, solid[motion.moving]])
@@ -426,7 +429,7 @@ class _Collector:
         motion, is_always_there = self._recording.motion_of(placed)
         if not is_always_there:
             self._notices.add(
-                place(placed.item.name),
+                place(placed.name),
                 "appears or vanishes while the shutter is open; it is there all the time, and still",
             )
         return motion
@@ -519,7 +522,7 @@ class _Collector:
 
     def _add_volume(self, placed: Placed) -> None:
         """A box about the grids of a volume object, filled by them."""
-        item, where = placed.item, place(placed.item.name)
+        item, where = placed.item, place(placed.name)
         material = self._override or _slots(item)[0]
         if not self.reads:
             if openvdb() is None:
