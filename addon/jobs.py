@@ -17,6 +17,7 @@ from .export.instance import BulkReader
 from .export.scene import Exported, View, export_scene
 from .export.stereo import active_views, eye_of
 from .film import passes
+from .film.coarse import first_look
 from .film.display import Display
 from .hexfield.export import export_instances
 from .native.render import open_render
@@ -46,16 +47,18 @@ class RenderJob:
 
     def _render(self, engine: bpy.types.RenderEngine, exported: Exported, view: str) -> None:
         engine.update_stats("", f"Building {view}".rstrip())
+        is_final = not engine.is_preview
+        coarse = None
+        if is_final and not bpy.app.background:
+            coarse = first_look(exported.scene, engine.test_break)
         render, _ = open_render(exported.scene)
         with render:
 
             def watch(report: dict[str, Any]) -> None:
                 reports.update(reports.collect(report, exported), self.layer)
 
-            is_final = not engine.is_preview
-            display = Display(
-                engine, render, exported.scene, self.passes, self.layer, watch if is_final else None, view
-            )
+            told = watch if is_final else None
+            display = Display(engine, render, exported.scene, self.passes, self.layer, told, view, coarse)
             display.run()
             report = reports.collect(render.report(), exported)
             metadata = display.metadata()

@@ -16,7 +16,7 @@ from ..scene.description import SceneDescription
 from ..scene.problems import GlimmerError
 from . import cryptomatte, denoise
 from .noise import FIREFLIES, noise_text
-from .passes import Pixels, Reader, RenderPass, hand_over
+from .passes import ALPHA, COMBINED, Pixels, Reader, RenderPass, hand_over, with_alpha
 
 if TYPE_CHECKING:
     import bpy
@@ -72,8 +72,10 @@ class Display:
         layer: str,
         watch: Callable[[dict[str, Any]], None] | None = None,
         view: str = "",
+        coarse: Pixels | None = None,
     ) -> None:
-        """watch: is told the engine's report whenever there is a new one. view: of a stereoscopic render."""
+        """watch: is told the engine's report whenever there is a new one. view: of a stereoscopic render. coarse:
+        (height, width, 4), top row first: what is seen until the first sample is there."""
         self._engine = engine
         self._render = render
         self._settings = scene.settings
@@ -89,6 +91,7 @@ class Display:
             [matte.asset for matte in scene.mattes],
         )
         self._watch = watch
+        self._canvas = coarse  # tiles of the first sample go over it
         x0, y0, x1, y1 = scene.film.window
         self._whole = Tile(0, 0, x1 - x0, y1 - y0)
         self._has_alpha = render.has_alpha
@@ -130,6 +133,8 @@ class Display:
 
     def run(self) -> None:
         """Until the render has ended or the user has cancelled it; what is there by then is kept."""
+        if self._canvas is not None:
+            self._show(self._whole)
         self._render.start()
         refresh_at = status_at = 0.0
         told_samples = 0
@@ -145,10 +150,15 @@ class Display:
                     self._watch(self._render.report())
             if progress.ended:
                 break
+            if progress.samples > 0:
+                self._canvas = None
             if time.monotonic() >= refresh_at:
                 refresh_at = self._refresh()
             self._render.wait(POLL_SECONDS)
         self._render.wait(-1.0)
+        if progress.samples > 0:
+            self._canvas = None
+        self._paint(self._render.changed_tiles())
         self._show(self._whole, final=True)
 
     def _tell(self, progress: Progress) -> None:
@@ -163,10 +173,25 @@ class Display:
         tiles = self._render.changed_tiles()
         if not tiles:
             return start  # the first ones are shown as soon as they are there
+        self._paint(tiles)
         for tile in tiles if len(tiles) <= MAX_TILES else [self._whole]:
             self._show(tile)
         end = time.monotonic()
         return end + max(REFRESH_SECONDS, (end - start) / MAX_REFRESH_SHARE)
+
+    def _paint(self, tiles: list[Tile]) -> None:
+        """Over the coarse picture, while there is one."""
+        if self._canvas is None:
+            return
+        for tile in tiles:
+            alpha = self._render.read(ALPHA, tile) if self._has_alpha else None
+            pixels = with_alpha(self._render.read(COMBINED.engine_name, tile), alpha)
+            self._canvas[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = pixels
+
+    def _part_of_canvas(self, tile: Tile) -> Pixels | None:
+        if self._canvas is None:
+            return None
+        return self._canvas[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width]
 
     def _show(self, tile: Tile, final: bool = False) -> None:
         result = self._engine.begin_result(
@@ -194,7 +219,8 @@ class Display:
             self._material_indices,
             self._to_camera,
             self._names,
-            self._denoised(tile) if final and self._denoises else None,
+            self._denoised(tile) if final and self._denoises and self._canvas is None else None,
+            self._part_of_canvas(tile),
         )
         asked = [(item.name, item.channels) for item in layer_passes]
         layer_passes.foreach_set("rect", hand_over(asked, self._passes, (tile.height, tile.width), reader, final))

@@ -212,10 +212,13 @@ class Reader:
     to_camera: NDArray[np.floating] | None = None  # (3, 3), of directions in the world
     names: cryptomatte.Names = field(default_factory=cryptomatte.Names)
     denoised: Pixels | None = None  # R G B in place of the engine's
+    picture: Pixels | None = None  # (height, width, 4), in place of the engine's
     ranks: dict[str, cryptomatte.Ranks] = field(default_factory=dict)  # of each kind of name, once it was asked for
 
     def shown(self) -> Pixels:
         """The picture, (height, width, 4)."""
+        if self.picture is not None:
+            return self.picture
         if self.denoised is None:
             return self.combined()
         return with_alpha(self.denoised, self.read(ALPHA) if self.has_alpha else None)

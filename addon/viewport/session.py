@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import threading
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film import denoise
+from ..film.coarse import Pixels, Window, enlarged, reduced
 from ..film.passes import ALPHA, DENOISED_BY, with_alpha
 from ..native.library import load
 from ..native.open_set import OpenSet
@@ -37,9 +37,6 @@ REFRESH_GROWTH = 0.05  # of the time that has been rendered
 # Reading costs render time: no more than this share of it. Denoising takes longer, and what it shows is worth more.
 MAX_REFRESH_SHARE = 0.1
 MAX_DENOISE_SHARE = 0.3
-
-Pixels = NDArray[np.float32]
-Window = tuple[int, int, int, int]  # x0, y0, x1, y1 from the top left
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,24 +102,6 @@ class _Failure:
     scene: int
     message: str
     is_told: bool = False
-
-
-def reduced(scene: SceneDescription, scale: int) -> SceneDescription:
-    """The same view in pixels of `scale` by `scale` as large."""
-    film = scene.film
-    width, height = -(-film.width // scale), -(-film.height // scale)
-    crop = film.crop
-    if crop is not None:
-        crop = crop[0] // scale, crop[1] // scale, -(-crop[2] // scale), -(-crop[3] // scale)
-    return replace(scene, film=replace(film, width=width, height=height, crop=crop))
-
-
-def enlarged(frame: Frame, scale: int, window: Window) -> Pixels:
-    """A coarse picture in pixels of a film `scale` times as large, cut to a window of that."""
-    x0, y0 = frame.window[0] * scale, frame.window[1] * scale
-    rows = frame.rgba[::-1].repeat(scale, axis=0).repeat(scale, axis=1)
-    cut = rows[window[1] - y0 : window[3] - y0, window[0] - x0 : window[2] - x0]
-    return np.ascontiguousarray(cut[::-1])
 
 
 def paste(canvas: Pixels, tile: Tile, pixels: Pixels) -> None:
@@ -275,7 +254,7 @@ class Session:
             self._built += 1
             older, self._running = self._frame, running
         if scale == 1 and older is not None and older.scene == number:
-            running.canvas = enlarged(older, older.scale, running.window)
+            running.canvas = enlarged(older.rgba[::-1], older.window, older.scale, running.window)[::-1].copy()
         try:
             render.start()
             self._watch(running)
@@ -340,8 +319,10 @@ class Session:
         try:
             if self._denoiser is None:
                 self._denoiser = denoise.open_denoiser()
-            seen_by = (running.render.read(name, running.whole)[::-1] for name in DENOISED_BY)
-            colors = self._denoiser.quick_picture(rgba[..., :3], *seen_by, lambda: not self._is_stale(running.number))
+            albedo, normal = (running.render.read(name, running.whole)[::-1] for name in DENOISED_BY)
+            colors = self._denoiser.quick_picture(
+                rgba[..., :3], albedo, normal, lambda: not self._is_stale(running.number)
+            )
         except GlimmerError as error:
             if not isinstance(error, denoise.StoppedError):
                 with self._changed:
