@@ -26,21 +26,26 @@ class BlankImages(Images):
     """Each image is one pixel, unless its file is missing."""
 
     def texture(self, image: Any) -> Texture:
-        return Texture(image.name, self.picture(image))
+        _expect_file(image)
+        return Texture(image.name, np.zeros((1, 1, 4), np.float32))
 
     def file_of(self, image: Any, path: str) -> Texture:
         if not Path(path).is_file():
             raise ValueError(f"has no file {Path(path).name}")
         return Texture(image.name, np.zeros((1, 1, 4), np.float32))
 
-    def picture(self, image: Any) -> Any:
-        import bpy
+    def light(self, image: Any) -> Any:
+        _expect_file(image)
+        return np.zeros((1, 1, 3), np.float32)
 
-        if image.source == "FILE" and image.packed_file is None:
-            path = Path(bpy.path.abspath(image.filepath, library=image.library))
-            if not path.is_file():
-                raise ValueError("has no pixels")
-        return np.zeros((1, 1, 4), np.float32)
+
+def _expect_file(image: Any) -> None:
+    import bpy
+
+    if image.source == "FILE" and image.packed_file is None:
+        path = Path(bpy.path.abspath(image.filepath, library=image.library))
+        if not path.is_file():
+            raise ValueError("has no pixels")
 
 
 def find_differences(depsgraph: bpy.types.Depsgraph, version: tuple[int, ...]) -> tuple[Notice, ...]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Value = TypeVar("Value")
 
 # Kinds of data of which nothing is kept, and of which objects that depend on them are told of too.
-READ_EACH_TIME = {"Scene", "Collection", "World", "Camera", "Armature", "Action"}
+READ_EACH_TIME = {"Scene", "Collection", "World", "Camera", "LightProbe", "Armature", "Action", "Key"}
 SHAPES = {"Mesh", "Curve", "TextCurve", "SurfaceCurve", "Curves", "PointCloud", "Volume", "MetaBall", "Lattice"}
 
 

@@ -156,19 +156,19 @@ class _Source:
     constants_only: bool
     kept: Kept
 
-    def placed(self) -> Iterator[Placed]:
-        return placed_objects(self.depsgraph, self.readers, self.kept, self.is_shown)
+    def placed(self, kept: Kept) -> Iterator[Placed]:
+        return placed_objects(self.depsgraph, self.readers, kept, self.is_shown)
 
     def look(self) -> tuple[dict[Hashable, Floats], Camera]:
-        """Where everything and the camera stand."""
-        places = {ident: matrices for placed in self.placed() for ident, matrices in placed.by_id()}
+        """Where everything and the camera stand, at a moment of which nothing is kept."""
+        places = {ident: matrices for placed in self.placed(Kept()) for ident, matrices in placed.by_id()}
         return places, self.view(self.depsgraph.scene_eval, Notices()).camera
 
     def most_steps(self) -> int:
         """The intervals of the motion that is asked for the finest; all others are powers of 2 too."""
         camera = self.depsgraph.scene_eval.camera
         of_camera = 0 if camera is None else motion_steps(camera)
-        return max([2, of_camera, *(motion_steps(placed.item, placed.instancer) for placed in self.placed())])
+        return max([2, of_camera, *(motion_steps(placed.item, placed.instancer) for placed in self.placed(Kept()))])
 
     def describe(self, notices: Notices, recording: Recording | None = None) -> SceneDescription:
         scene = self.depsgraph.scene_eval
@@ -185,7 +185,7 @@ class _Source:
             if world is not None and world.use_nodes and world.node_tree is not None and has_aovs(world.node_tree):
                 notices.add(f"world '{world.name}'", "AOV outputs of worlds are not supported; they are left out")
             collector.aovs = tuple(Aov(aov.name, aov.type == "COLOR") for aov in layer.aovs)[:MOST_AOVS]
-        for placed in self.placed():
+        for placed in self.placed(self.kept):
             collector.add(placed)
         environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
         lights = tuple(collector.lights)

@@ -225,15 +225,13 @@ class _Background:
         try:
             if image is None:
                 raise ValueError("has no image")
-            pixels = self.nodes.images.picture(image)
+            pixels = self.nodes.images.light(image)
         except (ValueError, RuntimeError) as error:
             name = "" if image is None else f"image '{image.name}' "
             self.nodes.notice(node, f"{name}{error}; shown in magenta, as in Cycles")
             return Environment(radiance=MISSING)
         if node.projection != "EQUIRECTANGULAR":
             self.nodes.notice(node, "a mirror ball is not supported; the image is read as equirectangular")
-        # The engine wants finite light that is not negative, top row first.
-        pixels = np.ascontiguousarray(np.maximum(np.nan_to_num(pixels[::-1, :, :3]), 0.0), np.float32)
         return Environment((1.0, 1.0, 1.0), pixels, self._turn(source) @ IMAGE_TURN)
 
     def _turn(self, source: Source) -> Floats:

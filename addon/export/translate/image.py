@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,8 @@ from .values import Triple, Value, math, number, op, triple, vector_math
 if TYPE_CHECKING:
     from ..nodes import Nodes
     from ..sockets import Source
+
+Read = TypeVar("Read")
 
 MISSING = (1.0, 0.0, 1.0)  # what Cycles shows where an image cannot be read
 
@@ -62,12 +64,13 @@ class Images:
         self.asks_others = True
         key = (image.as_pointer(), image.alpha_mode in ("CHANNEL_PACKED", "NONE"))
         if key not in self._textures:
-            if image.source != "FILE" or image.is_dirty:  # Blender tells of no stroke of a brush
-                self._textures[key] = _read(image)
-            else:
-                owners = (image.as_pointer(),)
-                self._textures[key] = self._kept.get("images", owners, _state(image), lambda: _read(image))
+            self._textures[key] = self._read_once("images", image, lambda: _read(image))
         return self._textures[key]
+
+    def _read_once(self, kind: str, image: Any, read: Callable[[], Read]) -> Read:
+        if image.source != "FILE" or image.is_dirty:  # Blender tells of no stroke of a brush
+            return read()
+        return self._kept.get(kind, (image.as_pointer(),), _state(image), read)
 
     def file_of(self, image: Any, path: str) -> Texture:
         """A frame or tile, a file of its own, with the settings of the image that it belongs to. Raises ValueError or
@@ -88,10 +91,15 @@ class Images:
                 bpy.data.images.remove(part)
         return self._textures[key]
 
-    def picture(self, image: Any) -> Any:
-        """(height, width, 4) linear light, bottom row first; raises as `texture`."""
+    def light(self, image: Any) -> Any:
+        """(height, width, 3) of finite linear light that is not negative, top row first; raises as `texture`."""
+
+        def read() -> Any:
+            pixels = read_image(image)[::-1, :, :3]
+            return np.ascontiguousarray(np.maximum(np.nan_to_num(pixels), 0.0), np.float32)
+
         self.asks_others = True
-        return read_image(image)
+        return self._read_once("skies", image, read)
 
 
 def _state(image: Any) -> tuple[object, ...]:
