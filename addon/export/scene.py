@@ -493,9 +493,10 @@ class _Collector:
             return
         if self._motion(placed) is not None:
             self._notices.add(place(item.name), f"points that move while the shutter is open, {HELD_STILL}")
-        points, radii = np.zeros((0, 3)), np.zeros(0)
-        if self.reads:
-            points, radii = self._kept.get("points", owners_of(item), None, lambda: point_cloud(cloud))
+        nothing = np.zeros((0, 3)), np.zeros(0)
+        points, radii = (
+            self._kept.get("points", owners_of(item), None, lambda: point_cloud(cloud)) if self.reads else nothing
+        )
         matrices = self._matrices(placed)
         material = self._material(_slots(item)[0], item.name)
         scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
