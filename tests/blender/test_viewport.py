@@ -65,11 +65,21 @@ def test_only_what_shows_restarts_it(facts: dict[str, Any]) -> None:
     scenes = {name: facts[name]["counts"]["scenes"] for name in ("first", "turned", "recolored", "selected")}
     assert scenes["turned"] > scenes["first"]
     assert scenes["selected"] == scenes["recolored"], "a selection restarted the picture"
+    moved, renamed = (facts[name]["counts"]["scenes"] for name in ("moved", "renamed"))
+    assert renamed == moved > scenes["selected"]
+
+
+def test_an_edit_reads_only_what_it_changed(facts: dict[str, Any]) -> None:
+    reads = {name: facts[name]["reads"] for name in ("turned", "recolored", "selected", "moved", "reshaped")}
+    first = reads["turned"]
+    assert first["meshes"] == 1 and first["spheres"] == 1
+    assert reads["recolored"] == reads["selected"] == reads["moved"] == {**first, "materials": first["materials"] + 1}
+    assert reads["reshaped"]["meshes"] == 2
 
 
 def test_meshes_are_kept_until_they_change(facts: dict[str, Any]) -> None:
-    created = [facts[name]["counts"]["meshes_created"] for name in ("first", "turned", "recolored", "reshaped")]
-    assert created == [1, 1, 1, 2]
+    names = ("first", "turned", "recolored", "moved", "reshaped")
+    assert [facts[name]["counts"]["meshes_created"] for name in names] == [1, 1, 1, 1, 2]
 
 
 def test_a_border_in_the_view_is_all_that_is_rendered(facts: dict[str, Any]) -> None:

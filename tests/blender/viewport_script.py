@@ -67,6 +67,7 @@ def note(name: str) -> None:
     entry: dict[str, Any] = {"views": len(redraw.open_views()), "threads": threads()}
     if shown is not None and shown.session is not None:
         entry["counts"] = asdict(shown.session.counts())
+        entry["reads"] = dict(shown.kept.reads)
         entry["failure"] = shown._failure or shown.session.failure()
         if shown.drawn is not None and shown.drawn.scale == 1:
             pixels = shown.drawn.pixels
@@ -155,9 +156,16 @@ def steps() -> Iterator[Callable[[], bool]]:
     yield waiting(1.0)
     note("selected")
 
-    bpy.data.objects["Ball"].data.vertices[0].co.x += 0.1
-    bpy.data.objects["Ball"].data.update()
+    bpy.data.objects["Ball"].location.x += 0.5
     yield lambda: is_settled() and view().session.counts().scenes > facts["selected"]["counts"]["scenes"]  # type: ignore[union-attr]
+    note("moved")
+    bpy.data.objects["Ball"].name = "Other"
+    yield waiting(1.0)
+    note("renamed")
+
+    bpy.data.objects["Other"].data.vertices[0].co.x += 0.1
+    bpy.data.objects["Other"].data.update()
+    yield lambda: is_settled() and view().session.counts().scenes > facts["renamed"]["counts"]["scenes"]  # type: ignore[union-attr]
     note("reshaped")
 
     space()[1].region_3d.view_perspective = "ORTHO"
