@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 # Of the instances by one object: the attribute of a name as a colour, (n, 4), or None where there is none of the name.
 AttributeReader = Callable[[str], "NDArray[np.float32] | None"]
-# (The evaluated instancer, the depsgraph, what earlier reads left) -> [(prototype object, (n, 4, 4) world matrices, their
-# attributes), ...], or None if it is none of its own. Places that did not change are the very same arrays.
+# (The evaluated instancer, the depsgraph, what earlier reads left) -> [(prototype object, (n, 4, 4) world matrices,
+# their attributes), ...], or None if it is none of its own. Places that did not change are the very same arrays.
 BulkReader = Callable[
     ["bpy.types.Object", "bpy.types.Depsgraph", Kept], "Sequence[tuple[bpy.types.Object, Any, AttributeReader]] | None"
 ]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # mypy: disable-error-code="valid-type"
-"""Fields to begin with: what their plates and hills look like. Where a field lies and how large it is stays."""
+"""Fields to begin with: what their plates and hills look like. All else of a field stays."""
 
 import dataclasses
 import math
@@ -49,16 +49,15 @@ _ITEMS = (
     ("DUNES", "Dunes", "Plates that lean with high hills"),
     ("SHATTERED", "Shattered", "Broken plates that lean every way"),
 )
-_KEPT = ("extent", "rings", "radius", "clearing", "seed", "plate_radius")
-_LENGTHS = ("gap", "thickness", "bevel_width", "hill_height", "hill_wavelength", "mutation_height")
+_LENGTHS = ("gap", "thickness", "hill_height", "hill_wavelength", "mutation_height")
+_LOOKS = sorted({name for changes in PRESETS.values() for name in changes})
 
 
 def preset(kind: str, now: FieldParameters) -> FieldParameters:
     """A field as it is now, with the looks of a preset."""
-    values = dataclasses.asdict(FieldParameters(**PRESETS[kind]))
-    for name in _LENGTHS:
-        values[name] *= now.plate_radius
-    return FieldParameters(**values | {name: getattr(now, name) for name in _KEPT})
+    chosen = FieldParameters(**PRESETS[kind])
+    looks = {name: getattr(chosen, name) * (now.plate_radius if name in _LENGTHS else 1) for name in _LOOKS}
+    return dataclasses.replace(now, **looks)
 
 
 class GLIMMER_OT_hexagon_field_preset(bpy.types.Operator):

@@ -3,7 +3,6 @@
 import numpy as np
 
 from addon.export.affine import inverse
-from addon.export.instance import hash_pair, hash_pairs, name_hash
 from addon.export.mesh import smooth_normals, split_by_normal
 
 
@@ -51,8 +50,3 @@ def test_the_inverse_of_a_place_is_exact_to_rounding() -> None:
         matrix[:3] = random.normal(size=(3, 4))
         np.testing.assert_allclose(inverse(matrix) @ matrix, np.eye(4), atol=1e-9)
     assert not inverse(np.diag([1.0, 0.0, 1.0, 1.0])).any()
-
-
-def test_many_pairs_are_hashed_as_one_is() -> None:
-    name = name_hash("Plates 003")
-    assert hash_pairs(name, np.arange(300)).tolist() == [hash_pair(name, i) for i in range(300)]
