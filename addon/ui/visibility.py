@@ -32,6 +32,27 @@ class GLIMMER_PT_ray_visibility(_ObjectPanel, bpy.types.Panel):
                 column.prop(context.object, "is_shadow_catcher", text="Shadow Catcher: not rendered")
 
 
+class GLIMMER_PT_shadow_terminator(_ObjectPanel, bpy.types.Panel):
+    bl_label = "Shadow Terminator"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.object.type != "LIGHT"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, item = self.layout, context.object
+        layout.use_property_split = True
+        own = hasattr(item, "shadow_terminator_geometry_offset")  # of Blender; before, of the add-on Cycles
+        settings = item if own else getattr(item, "cycles", None)
+        if settings is None:
+            draw_wrapped(layout, context, "These settings belong to the add-on Cycles, which is switched off", "INFO")
+            return
+        layout.prop(settings, "shadow_terminator_geometry_offset", text="Geometry Offset")
+        shading = "shadow_terminator_shading_offset" if own else "shadow_terminator_offset"
+        if getattr(settings, shading) > 0:
+            layout.prop(settings, shading, text="Shading Offset: not rendered")
+
+
 class GLIMMER_PT_world_ray_visibility(GlimmerPanel, bpy.types.Panel):
     bl_label = "Ray Visibility"
     bl_context = "world"
@@ -55,6 +76,6 @@ class GLIMMER_PT_world_ray_visibility(GlimmerPanel, bpy.types.Panel):
             layout.prop(world.cycles, "max_bounces", text="Max Bounces: not rendered")
 
 
-_CLASSES = (GLIMMER_PT_ray_visibility, GLIMMER_PT_world_ray_visibility)
+_CLASSES = (GLIMMER_PT_ray_visibility, GLIMMER_PT_shadow_terminator, GLIMMER_PT_world_ray_visibility)
 
 register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -116,12 +116,12 @@ def reshape(name: str) -> None:
 
 
 def tint_plates() -> None:
+    """A color in place of those that the plates have each."""
     material = item("Field").material_slots[0].material
-    material.node_tree.nodes.active = None
-    for node in material.node_tree.nodes:
-        for socket in node.inputs:
-            if socket.name in ("Base Color", "Color"):
-                socket.default_value = (0.9, 0.5, 0.2, 1.0)
+    socket = input_of(material, "Base Color")
+    for link in socket.links:
+        material.node_tree.links.remove(link)
+    socket.default_value = (0.9, 0.5, 0.2, 1.0)
 
 
 def nothing() -> None:
