@@ -20,6 +20,7 @@ from addon.scene.description import (
     Translucent,
     Transparent,
 )
+from addon.scene.program import Op
 
 GREY = Lambert((0.5, 0.5, 0.5))
 RED = Lambert((0.8, 0.1, 0.1))
@@ -106,3 +107,12 @@ def test_parts_of_a_mix_hold_no_emission() -> None:
 
 def test_transparent_alone_stays() -> None:
     assert mix(1.0, GREY, Null()) == Null()
+
+
+@pytest.mark.parametrize("other", [METAL, Mix(0.5, GLASS, METAL)])
+def test_what_does_not_shine_shines_by_no_program(other: Material) -> None:
+    """All triangles of a material with a program for its emission are taken for lights."""
+    varying = Op("attribute", (1.0,), ("center",), "number")
+    for combined in (mix(varying, GREY, other), add(mix(varying, GREY, other), RED)):
+        assert not isinstance(combined, (Light, Null))
+        assert combined.emission == BLACK

@@ -2,7 +2,7 @@
 """Renders small scenes by Cycles and Glimmer in turn, in one process: cycles_script.py FOLDER.
 
 Writes pictures.npz: NAME.CYCLES and NAME.GLIMMER, each (seeds, height, width, 3); hair.npz: the same of strands,
-without NAME; and edges.npz, of an edge: WIDTH.ENGINE by filter width, each (height, width, 3).
+without NAME; and edges.npz, of an edge: WIDTH.ENGINE by filter width, each (rows, width, 3).
 """
 
 import itertools
@@ -22,6 +22,7 @@ from exact_cycles import set_up_cycles
 
 OUT = Path(inside.words()[0])
 SEEDS, SAMPLES = 4, 32
+EDGE_SEEDS = 24
 WIDTH, HEIGHT = 36, 24
 
 inside.enable()
@@ -501,6 +502,8 @@ for filter_width in (1.5, 2.5):
     set_up_cycles(current, samples=1024, pixel_filter_type="BLACKMAN_HARRIS", filter_width=filter_width)
     current.glimmer.samples = 1024
     current.glimmer.filter, current.glimmer.filter_width = "BLACKMAN_HARRIS", filter_width
-    for engine in ("CYCLES", "GLIMMER"):
-        edges[f"{filter_width}.{engine}"] = picture(engine, 0)
+    edges[f"{filter_width}.CYCLES"] = picture("CYCLES", 0)
+    # The rows of a picture of ours share the places of their samples, so each row is of another seed.
+    current.glimmer.samples = 128
+    edges[f"{filter_width}.GLIMMER"] = np.array([picture("GLIMMER", seed)[0] for seed in range(EDGE_SEEDS)])
 np.savez(OUT / "edges.npz", **edges)

@@ -22,8 +22,8 @@ glimmer = inside.enable()
 from glimmer.native import library  # noqa: E402 - the add-on's name inside Blender
 
 
-def panoramic(scene: Any) -> None:
-    scene.camera.data.type = "PANO"
+def flat_camera(scene: Any) -> None:
+    scene.camera.scale.z = 0.0
 
 
 def unreadable_mesh(scene: Any) -> None:
@@ -46,7 +46,7 @@ def defect(scene: Any) -> None:
 
 
 BREAKERS: tuple[Callable[[Any], None], ...] = (
-    panoramic,
+    flat_camera,
     unreadable_mesh,
     missing_library,
     defect,
@@ -62,7 +62,7 @@ for breaker in BREAKERS:
     folder.mkdir()
     inside.use_format("PNG")
     breaker(scene)
-    if breaker is panoramic:
+    if breaker is flat_camera:
         bpy.ops.wm.save_as_mainfile(filepath=str(OUT / "broken.blend"))
     messages[name] = ""
     for options in ({}, {"animation": True}):

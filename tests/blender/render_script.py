@@ -100,7 +100,11 @@ def layers_and_passes() -> None:
     compositor(scene)
     scene.view_layers.remove(without)
     for item in passes.OPTIONAL:
-        setattr(item.owner(first), item.switch, False)
+        setattr(item.owner(first), item.switch, item.switch == passes.NOISY.switch)
+    # With the pass that denoisers read alone: samples count for one pixel each where it is on.
+    inside.use_format("OPEN_EXR")
+    inside.render(OUT / "one_pass.exr")
+    setattr(passes.NOISY.owner(first), passes.NOISY.switch, False)
 
 
 def transparent() -> None:

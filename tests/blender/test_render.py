@@ -107,7 +107,7 @@ def named_pass(found: dict[str, Pixels], facts: dict[str, Any], name: str) -> Pi
 
 def test_passes_hold_what_they_say(out: Path, facts: dict[str, Any]) -> None:
     found = channels(out / "layers.exr")
-    alone = picture(out / "full.exr")
+    alone = picture(out / "one_pass.exr")
     combined = layer_pass(found, "ViewLayer", "Combined", "RGBA")
     np.testing.assert_array_equal(combined[..., :3], alone)
     assert (combined[..., 3] == 1.0).all()

@@ -3,6 +3,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -290,7 +291,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "glints through a lens": glints_through_a_lens,
     "light by way of metal, in parallel rays": metal_in_parallel_rays,
     "glass in parallel rays, through a lens": lambda: from_a_distance(glass_in_fog()),
-    **{f"metal, {name}": lambda kind=kind: metal_in_a_panorama(kind) for name, kind in PANORAMAS.items()},
+    **{f"metal, {name}": partial(metal_in_a_panorama, kind) for name, kind in PANORAMAS.items()},
     "moving plates": moving_plates,
     "thousand lights": thousand_lights,
     "mesh light": mesh_light_in_fog,
@@ -369,12 +370,14 @@ def test_estimators_change_no_mean(switch: str) -> None:
 
 
 def test_where_surfaces_glint() -> None:
-    """The scenes made for it are those where several points of a pixel compete for being lit."""
+    """The scenes made for it are those where several points of a pixel compete for being lit, and a whole panorama,
+    whose few pixels see much of the floor each."""
     glinting = set()
     for name, build in SCENES.items():
         with rendering(Scene(build().done()), samples=1) as render:
             render.wait()
             if not any("glint" in line for line in render.report()["left_out"]):
                 glinting.add(name)
+    made_for_it = {"glints", "glints in fog, through a lens", "glints and glass"}
     without_surfaces = "channels far apart"
-    assert glinting == {"glints", "glints in fog, through a lens", "glints and glass", without_surfaces}
+    assert glinting == {*made_for_it, "metal, panorama", without_surfaces}

@@ -9,6 +9,8 @@ Number = float | Op
 Triple = Rgb | Op
 Value = tuple[float, ...] | Op  # (v,) or (r, g, b)
 
+ZERO: Rgb = (0.0, 0.0, 0.0)
+
 
 def op(name: str, *inputs: Number | Triple, modes: tuple[str, ...] = (), resource: object = None) -> Op:
     return Op(name, inputs, modes, resource)  # type: ignore[arg-type]
@@ -57,9 +59,9 @@ def vector_math(operation: str, a: Triple, b: Triple = (0.0,) * 3, c: Triple = (
 def scaled(a: Triple, factor: Number) -> Triple:
     """Of every channel."""
     if isinstance(a, Op) or isinstance(factor, Op):
-        if factor == 1.0:
-            return a
-        return vector_math("scale", a, scale=factor)
+        if factor == 0.0 or a == ZERO:
+            return ZERO
+        return a if factor == 1.0 else vector_math("scale", a, scale=factor)
     return (a[0] * factor, a[1] * factor, a[2] * factor)
 
 
@@ -77,15 +79,14 @@ def difference(a: Number, b: Number) -> Number:
 
 def added(a: Triple, b: Triple) -> Triple:
     if isinstance(a, Op) or isinstance(b, Op):
-        zero = (0.0, 0.0, 0.0)
-        return b if a == zero else a if b == zero else vector_math("add", a, b)
+        return b if a == ZERO else a if b == ZERO else vector_math("add", a, b)
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
 def lerp(a: Triple, b: Triple, t: Number) -> Triple:
     """a + (b - a) t."""
     if isinstance(t, Op) or isinstance(a, Op) or isinstance(b, Op):
-        return a if t == 0.0 else b if t == 1.0 else op("blend", t, a, b, modes=("mix", "free"))
+        return a if t == 0.0 or a == b else b if t == 1.0 else op("blend", t, a, b, modes=("mix", "free"))
     return (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t)
 
 
@@ -103,6 +104,8 @@ def clamped_color(a: Triple, low: float = 0.0, high: float = 1.0) -> Triple:
 def multiplied(a: Triple, b: Triple) -> Triple:
     """Channel by channel."""
     if isinstance(a, Op) or isinstance(b, Op):
+        if ZERO in (a, b):
+            return ZERO
         white = (1.0, 1.0, 1.0)
         return b if a == white else a if b == white else vector_math("multiply", a, b)
     return (a[0] * b[0], a[1] * b[1], a[2] * b[2])

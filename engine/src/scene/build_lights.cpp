@@ -10,8 +10,9 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kDimmest = 1e-3f;    // radiance for which a triangle is chosen that seems to be dark
-constexpr uint32_t kSkyWidth = 1024; // of the picture by which a program's sky is sampled
+constexpr float kDimmest = 1e-3f;               // radiance for which a triangle is chosen that seems to be dark
+constexpr uint32_t kSkyWidth = 1024;            // of the picture by which a program's sky is sampled
+constexpr size_t kMostLookedAtClosely = 50'000; // triangles whose light varies; of more, each is looked at once
 
 Rgb to_rgb(const float (&c)[3]) {
     return {c[0], c[1], c[2]};
@@ -117,8 +118,8 @@ bool SceneBuilder::shines_varying(uint32_t material) const {
 }
 
 /// A triangle that shows nothing where it was looked at may shine elsewhere: every one gets a small chance.
-Rgb SceneBuilder::mean_for_choice(uint32_t instance, uint32_t triangle) const {
-    const Rgb mean = shaders()->mean_of_triangle(instance, triangle);
+Rgb SceneBuilder::mean_for_choice(uint32_t instance, uint32_t triangle, int side) const {
+    const Rgb mean = shaders()->mean_of_triangle(instance, triangle, side);
     return max_component(mean) > kDimmest ? mean : Rgb(kDimmest);
 }
 
@@ -128,13 +129,19 @@ void SceneBuilder::add_mesh_light(LightList &lights) const {
     const std::vector<Instance> &instances = scene_.accel->instances();
     light.first_of_instance.assign(instances.size(), kNone);
     Vec3d low(HUGE_VAL, HUGE_VAL, HUGE_VAL), high = -low;
+    size_t varying = 0;
+    for (const Instance &instance : instances)
+        if (std::ranges::any_of(scene_.object_materials[instance.object],
+                                [&](uint32_t m) { return shines_varying(m); }))
+            varying += instance.mesh->triangles.size();
+    const int side = varying > kMostLookedAtClosely ? 1 : 4;
     for (uint32_t i = 0; i < instances.size(); ++i) {
         const Instance &instance = instances[i];
         const std::vector<uint32_t> &materials = scene_.object_materials[instance.object];
         const auto varies = [&](uint32_t t) { return shines_varying(materials[instance.mesh->slot(t)]); };
         const auto emission = [&](uint32_t t) -> Rgb {
             if (varies(t))
-                return mean_for_choice(i, t);
+                return mean_for_choice(i, t, side);
             return scene_.materials.bounds(materials[instance.mesh->slot(t)]).emission;
         };
         bool shines = false;

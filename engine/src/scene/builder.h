@@ -37,7 +37,7 @@ class SceneBuilder {
   private:
     ShaderScene *shaders() const; ///< null: nothing varies
     bool shines_varying(uint32_t material) const;
-    Rgb mean_for_choice(uint32_t instance, uint32_t triangle) const;
+    Rgb mean_for_choice(uint32_t instance, uint32_t triangle, int side) const;
     void add_attributes_of_instances(ShaderScene &shaders, const AttributeNumbers &names) const;
     void add_sky(LightList &lights);
     void add_sun_of_sky(LightList &lights);

@@ -294,17 +294,15 @@ Rgb ShaderScene::of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) cons
     return {light(v.x), light(v.y), light(v.z)};
 }
 
-Rgb ShaderScene::mean_of_triangle(uint32_t instance, uint32_t primitive) const {
-    // A fine grid on the triangle: the mean guides choices alone.
-    constexpr int kSide = 4;
+Rgb ShaderScene::mean_of_triangle(uint32_t instance, uint32_t primitive, int side) const {
     Rgb sum;
-    for (int i = 0; i < kSide; ++i)
-        for (int j = 0; i + j < kSide; ++j) {
-            const Vec2f uv{(float(i) + 1.0f / 3) / kSide, (float(j) + 1.0f / 3) / kSide};
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; i + j < side; ++j) {
+            const Vec2f uv{(float(i) + 1.0f / 3) / float(side), (float(j) + 1.0f / 3) / float(side)};
             const Interaction at = on_triangle(instance, primitive, uv);
             sum += emission(varying_of[at.material], at, {.wo = at.geometric_normal, .arrival = kFromDiffuse});
         }
-    return sum * (2.0f / (kSide * (kSide + 1)));
+    return sum * (2.0f / float(side * (side + 1)));
 }
 
 Rgb ShaderScene::mean_of_sphere(uint32_t sphere) const {

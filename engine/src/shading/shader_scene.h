@@ -73,8 +73,9 @@ class ShaderScene : public VaryingEmission {
     Rgb of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const override;
     Rgb of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const override;
 
-    /// The mean radiance of a triangle or sphere over a few places, seen along its normal.
-    Rgb mean_of_triangle(uint32_t instance, uint32_t primitive) const;
+    /// The mean radiance of a triangle or sphere over a few places, seen along its normal: it guides choices alone.
+    /// side: places along an edge of the triangle.
+    Rgb mean_of_triangle(uint32_t instance, uint32_t primitive, int side) const;
     Rgb mean_of_sphere(uint32_t sphere) const;
 
   private:

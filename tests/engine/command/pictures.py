@@ -42,6 +42,8 @@ AOV_CHANNELS = {
     "object_matte": "0123456789abcdefghijklmnopqrstuv",
     "material_matte": "0123456789abcdefghijklmnopqrstuv",
     **{f"light_group_{i + 1}": "RGB" for i in range(16)},
+    **{f"aov_{i + 1}": "RGBA" for i in range(8)},
+    "ambient_occlusion": "RGB",
 }
 IN_THE_MAIN_LAYER = ("combined", "alpha")
 
