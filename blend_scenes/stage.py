@@ -153,6 +153,18 @@ def field(scene: Any, plate: Any, bevel: Any, **parameters: Any) -> Any:
     return tools("hexfield.field").create("Hexagon Field", values, plate, bevel, scene.collection)
 
 
+def world(preset: str, samples: int, plate_radius: float = 1.3) -> tuple[Any, Any]:
+    """The scene and the field of an empty file with a world of Glimmer's: plates only where the camera sees them, which
+    keeps the file small.
+    """
+    scene = clear()
+    bpy.ops.glimmer.add_glimmer_world(preset=preset, plate_radius=plate_radius)
+    picture(scene, 960, 540, samples, scene.view_settings.exposure)
+    land = bpy.context.object
+    land.glimmer_field.sector = math.radians(66.0)
+    return scene, land
+
+
 def look_through_camera() -> None:
     """The file opens with its picture, but in solid shading: Blender opens none in rendered shading."""
     for window in bpy.context.window_manager.windows:

@@ -87,8 +87,9 @@ def _parameters(preset: Preset, seed: int, plate_radius: float) -> FieldParamete
             "sector": _SECTOR,
             "planet_radius": preset.planet_radius,
             "hill_height": preset.hill_height,
-            "thickness": 1.2,
-            "bevel_width": 0.1,
+            "thickness": 1.6 * plate_radius,
+            "bevel_width": 0.14 * plate_radius,
+            "bevel_segments": 4,
             "plate_radius": plate_radius,
             **land,
             "seed": land.get("seed", 0) + seed,
@@ -96,7 +97,7 @@ def _parameters(preset: Preset, seed: int, plate_radius: float) -> FieldParamete
     )
 
 
-def ground_height(land: Any, near: float = 12.0) -> float:
+def ground_height(land: Any, near: float = 8.0) -> float:
     """Of the highest plate near the origin of a field, in its own space; 0 where there is none."""
     points = np.empty(3 * len(land.data.vertices), np.float32)
     land.data.vertices.foreach_get("co", points)

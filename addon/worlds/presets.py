@@ -50,11 +50,11 @@ class Preset:
     haze_color: Color
     anisotropy: float
     frame: int = 1
-    eye_height: float = 4.0  # above the ground
-    pitch: float = 6.0  # degrees up from level
+    eye_height: float = 3.0  # above the ground
+    pitch: float = 4.0  # degrees up from level
     exposure: float = 0.0
-    planet_radius: float = 4000.0
-    hill_height: float = 6.0
+    planet_radius: float = 900.0  # small, so that hills stand out before few plates reach the horizon
+    hill_height: float = 17.0
     land: Mapping[str, Any] = field(default_factory=dict)  # of the field, beside these
 
     def reach(self) -> float:
@@ -76,62 +76,63 @@ PRESETS: dict[str, Preset] = {
         "Convergence of the Five",
         "All five moons come together over ridged hills of three metals",
         (
-            PresetMoon("Red Moon", RED, 7.0, -11.0, 7.0, 150.0, 5.2, period=420.0),
-            PresetMoon("White Moon", WHITE, 22.0, 2.0, 15.0, 210.0, 2.3, period=300.0),
-            PresetMoon("Blue Moon", BLUE, 14.0, 14.0, 9.0, 120.0, 3.2, period=260.0, is_eastward=True),
-            PresetMoon("Green Moon", GREEN, 9.0, 5.5, 5.0, 100.0, 1.5, period=200.0, eccentricity=0.3),
-            PresetMoon("Black Moon", VIOLET, 0.6, -4.0, 11.5, 90.0, 3.0, "BLACK", 340.0, 0.0, True),
+            PresetMoon("Red Moon", RED, 10.0, -14.0, 5.5, 170.0, 6.0, period=420.0),
+            PresetMoon("White Moon", WHITE, 60.0, 2.0, 15.0, 210.0, 2.2, period=300.0),
+            PresetMoon("Blue Moon", BLUE, 30.0, 16.0, 9.5, 120.0, 3.4, period=260.0, is_eastward=True),
+            PresetMoon("Green Moon", GREEN, 14.0, 5.5, 5.0, 100.0, 1.5, period=200.0, eccentricity=0.3),
+            PresetMoon("Black Moon", VIOLET, 0.8, -6.5, 11.0, 90.0, 3.0, "BLACK", 340.0, 0.0, True),
         ),
-        visual_range=700.0,
+        visual_range=480.0,
         haze_color=(0.82, 0.86, 0.92),
         anisotropy=0.3,
         frame=100,
         land={
-            "hill_wavelength": 55.0,
+            "hill_wavelength": 50.0,
             "hill_octaves": 4,
             "hill_follow": 0.55,
             "second_weight": 0.15,
             "third_weight": 0.05,
             "cracked": 0.06,
             "missing": 0.01,
-            "seed": 2,
+            "seed": 33,
         },
     ),
     "GREEN_NOON": Preset(
         "Green Noon",
         "A great green moon high over terraces with patina",
         (
-            PresetMoon("Green Moon", GREEN, 11.0, 4.0, 27.0, 190.0, 6.5, period=500.0),
-            PresetMoon("White Moon", WHITE, 16.0, -17.0, 12.0, 240.0, 1.3, period=220.0, is_eastward=True),
-            PresetMoon("Far Moon", (0.8, 0.7, 0.6), 0.0, 17.0, 13.0, 150.0, 3.0, "LIT", 320.0),
+            PresetMoon("Green Moon", GREEN, 7.0, 3.0, 16.0, 190.0, 5.0, period=500.0),
+            PresetMoon("White Moon", WHITE, 90.0, -17.0, 9.0, 220.0, 1.4, period=220.0, is_eastward=True),
+            PresetMoon("Far Moon", (0.95, 0.75, 0.55), 0.0, 19.0, 8.0, 110.0, 3.4, "LIT", 320.0),
         ),
         visual_range=600.0,
         haze_color=(0.8, 0.92, 0.84),
         anisotropy=0.4,
         frame=60,
-        pitch=11.0,
+        pitch=5.5,
+        exposure=0.5,
         land={
-            "hill_wavelength": 60.0,
+            "hill_wavelength": 50.0,
             "hill_follow": 0.3,
             "terrace_height": 1.6,
-            "thickness": 1.6,
             "patina": 0.6,
-            "seed": 5,
+            "seed": 56,
         },
     ),
     "BLACK_ECLIPSE": Preset(
         "Black Eclipse",
         "The black moon stands before the white one, over cracked plains",
         (
-            PresetMoon("White Moon", WHITE, 45.0, 0.0, 10.0, 230.0, 4.0, period=400.0),
-            PresetMoon("Black Moon", VIOLET, 0.8, 0.0, 10.0, 120.0, 3.75, "BLACK", 240.0),
-            PresetMoon("Red Moon", RED, 9.0, -19.0, 4.5, 170.0, 1.8, period=300.0, is_eastward=True),
+            PresetMoon("White Moon", WHITE, 110.0, 0.0, 10.0, 210.0, 4.4, period=400.0),
+            PresetMoon("Black Moon", VIOLET, 0.5, 0.0, 10.0, 110.0, 4.15, "BLACK", 240.0),
+            PresetMoon("Red Moon", RED, 16.0, -19.0, 4.5, 150.0, 2.0, period=300.0, is_eastward=True),
         ),
-        visual_range=500.0,
+        visual_range=700.0,
         haze_color=(0.86, 0.84, 0.88),
         anisotropy=0.6,
         frame=80,
-        hill_height=3.0,
+        exposure=-1.2,
+        hill_height=7.0,
         land={
             "hill_kind": "BILLOWED",
             "hill_wavelength": 70.0,
@@ -139,32 +140,32 @@ PRESETS: dict[str, Preset] = {
             "cracked": 0.25,
             "sunken": 0.1,
             "crater_density": 0.35,
-            "crater_radius": 12.0,
-            "crater_depth": 3.0,
-            "seed": 7,
+            "crater_radius": 14.0,
+            "crater_depth": 4.5,
+            "seed": 42,
         },
     ),
     "BLUE_DAWN": Preset(
         "Blue Dawn",
         "A blue moon rises over dunes, and lights a pale one",
         (
-            PresetMoon("Blue Moon", BLUE, 30.0, 7.0, 3.0, 200.0, 4.2, period=450.0),
-            PresetMoon("White Moon", WHITE, 14.0, -24.0, 6.0, 260.0, 0.9, period=350.0),
-            PresetMoon("Pale Moon", (0.9, 0.85, 0.8), 0.0, -10.0, 14.0, 130.0, 4.0, "LIT", 280.0, 0.2, True),
+            PresetMoon("Blue Moon", BLUE, 42.0, 7.0, 4.0, 190.0, 5.0, period=450.0),
+            PresetMoon("Amber Moon", (1.0, 0.55, 0.25), 90.0, -21.0, 7.0, 200.0, 1.3, period=350.0),
+            PresetMoon("Pale Moon", (0.95, 0.85, 0.7), 0.0, -8.0, 13.0, 110.0, 3.6, "LIT", 280.0, 0.2, True),
         ),
         visual_range=650.0,
         haze_color=(0.8, 0.87, 0.94),
         anisotropy=0.5,
         frame=70,
-        hill_height=4.0,
+        hill_height=7.0,
         land={
             "hill_kind": "DUNES",
             "hill_wavelength": 38.0,
             "hill_octaves": 2,
             "hill_follow": 0.9,
-            "wind": 0.5,
+            "wind": 0.9,
             "metal_color": (0.86, 0.72, 0.55),
-            "seed": 3,
+            "seed": 34,
         },
     ),
 }

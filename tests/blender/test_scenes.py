@@ -18,7 +18,17 @@ from scipy import stats
 
 SCRIPT = Path(__file__).with_name("scene_checks.py")
 FOLDER = Path(__file__).resolve().parents[2] / "blend_scenes"
-SCENES = ("clearing", "furnace", "glimmervoid", "metals_and_glass", "moons_in_fog")
+SCENES = (
+    "clearing",
+    "dunes",
+    "eclipse",
+    "five_moons_orbit",
+    "furnace",
+    "glimmervoid",
+    "horizon",
+    "metals_and_glass",
+    "moons_in_fog",
+)
 
 
 def differences(one: Any, other: Any, where: str = "") -> Iterator[str]:
