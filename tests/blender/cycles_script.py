@@ -36,13 +36,19 @@ def floor() -> None:
     inside.plane(material=inside.material("ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1.0)))
 
 
-def under_lamps(material: Any) -> None:
+def under_lamps(material: Any, segments: int = 16, is_smooth: bool = False) -> None:
     """A faceted ball: Cycles bends shadows on smooth ones."""
     inside.empty_scene((0.2, 0.2, 0.25))
     floor()
     inside.lamp("AREA", (-3.0, -2.0, 4.0), energy=200.0, shape="RECTANGLE", size=2.0, size_y=1.0)
-    ball = inside.ball("Ball", material, segments=16)
-    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
+    ball = inside.ball("Ball", material, segments=segments)
+    ball.data.polygons.foreach_set("use_smooth", [is_smooth] * len(ball.data.polygons))
+
+
+def coarse_metal(roughness: float) -> None:
+    """Smooth normals would send what is seen at its outlines into its faces: both engines bend them."""
+    material = inside.material("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=roughness)
+    under_lamps(material, segments=8, is_smooth=True)
 
 
 def under_lamp(kind: str, **settings: Any) -> Any:
@@ -414,6 +420,8 @@ SCENES: dict[str, Callable[[], Any]] = {
     "diffuse": shader("ShaderNodeBsdfDiffuse", Color=OCHRE),
     "glossy": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.5),
     "mirror": shader("ShaderNodeBsdfGlossy", "GGX", Color=OCHRE, Roughness=0.0),
+    "coarse metal": lambda: coarse_metal(0.15),
+    "coarse mirror": lambda: coarse_metal(0.0),
     "glass": shader("ShaderNodeBsdfGlass", None, Roughness=0.0, IOR=1.5),
     "mix": mixed,
     "absorption": lambda: fog("ShaderNodeVolumeAbsorption", Color=OCHRE, Density=0.1),

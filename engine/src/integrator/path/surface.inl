@@ -41,10 +41,8 @@ auto PathSample<F>::orient(const State &state, const Interaction &surface, const
         return orient_bumped(surface, shading.bsdf, wo);
     const float side = dot(wo, surface.geometric_normal) < 0 ? -1.0f : 1.0f;
     const Vec3f geometric = surface.geometric_normal * side;
-    Vec3f shading_normal = surface.shading_normal * side;
-    if (!is_above_horizon(shading_normal, wo))
-        shading_normal = geometric;
-    const Frame frame(shading_normal);
+    const Frame frame(normal_towards(surface.shading_normal * side, geometric, wo, shading.bsdf,
+                                     F.medium && scene().medium.has_value()));
     const Vec3f wo_local = frame.to_local(wo);
     if (!(wo_local.z > 0))
         return std::nullopt;

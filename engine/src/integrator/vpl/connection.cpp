@@ -13,7 +13,7 @@ Connection connect(const SurfaceVertex &vertex, const Bsdf &bsdf, const Vec3f &d
     const float cosine = dot(direction, geometric);
     if (!(cosine > 0))
         return {};
-    const Frame frame(is_above_horizon(shading, direction) ? shading : geometric);
+    const Frame frame(normal_towards(shading, geometric, direction, bsdf, true));
     const Vec3f incoming = frame.to_local(vertex.incoming), outgoing = frame.to_local(direction);
     if (!(beyond ? incoming.z < 0 : incoming.z > 0) || !(outgoing.z > 0))
         return {};
