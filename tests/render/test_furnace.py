@@ -47,8 +47,8 @@ def test_rough_metal(integrator: str, alpha: float, mu: float) -> None:
 
 @pytest.mark.parametrize("tilt", [-8, 4, 6])
 def test_a_shading_normal_is_bent_until_it_reflects_above_the_surface(integrator: str, tilt: int) -> None:
-    """Seen at 80 degrees from the true normal, the shading normal a further `tilt` degrees away: as far as the reflected
-    cosine is .01 at least. Cycles 3.4 keeps 0.998, 0.884 and 0.712 too."""
+    """Seen at 80 degrees from the true normal, the shading normal a further `tilt` degrees away: as far as the
+    reflected cosine is .01 at least. Cycles 3.4 keeps 0.998, 0.884 and 0.712 too."""
     view, leaning = np.radians(80), np.radians(tilt)
     away = min(float(leaning), (np.arccos(0.01) - view) / 2)
     bent = view + away
