@@ -3,8 +3,8 @@
 
 No closed form: shared light vertices (`path`) against paths from the camera alone (`baseline`), in fog, where what
 leaves a surface shows. The camera's way of shading is the definition: about the shading normal, but bent where rough
-metal would reflect beneath the surface; of what is diffuse or has a mirror, about the true one where the view is beneath
-the shading normal's horizon, and nothing of what a mirror would send beneath the surface.
+metal would reflect beneath the surface; of what is diffuse or has a mirror, about the true normal where the view is
+beneath the shading normal's horizon, and nothing of what a mirror would send beneath the surface.
 """
 
 from collections.abc import Callable
