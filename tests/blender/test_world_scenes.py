@@ -33,7 +33,7 @@ def test_most_light_comes_from_the_haze_and_its_error_is_known(out: Path, name: 
     combined, fog, error = light(found), light(found, "Fog"), light(found, "Standard Error")
     for pixels in (combined, fog, error):
         assert np.isfinite(pixels).all()
-    assert combined.min() > 0.0
+    assert (combined > 0.0).mean() > 0.999  # a pixel may be negative within its noise
     # By median, which moons seen directly cannot carry.
     assert np.median(fog.sum(axis=2) / combined.sum(axis=2)) > 0.5
     assert 0.0 < np.median(error) < 0.5 * np.median(combined)
