@@ -153,6 +153,13 @@ def _layer_weight(nodes: Folder, source: Source) -> Constant:
     return (mean,)
 
 
+def _light_path(nodes: Folder, source: Source) -> Constant:
+    flags = nodes.nodes.ray_flags
+    if source.output.identifier not in flags:
+        raise NotConstantError(source.node)
+    return (flags[source.output.identifier],)
+
+
 def stored_pixels(image: bpy.types.Image) -> NDArray[np.float32]:
     """(height, width, channels) as Blender has them, bottom row first. Raises ValueError where there are none."""
     width, height = image.size
@@ -205,6 +212,7 @@ FOLDS: dict[str, Callable[[Folder, Source], Constant]] = {
     "ShaderNodeInvert": _invert,
     "ShaderNodeValToRGB": _ramp,
     "ShaderNodeRGBToBW": _to_gray,
+    "ShaderNodeLightPath": _light_path,
 }
 # What varies, but whose mean is known.
 MEANS: dict[str, Callable[[Folder, Source], Constant]] = {

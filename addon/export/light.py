@@ -118,7 +118,7 @@ def _color(data: bpy.types.Light, where: str, notices: Notices) -> Rgb:
     if getattr(data, "use_temperature", False):
         color = tuple(a * b for a, b in zip(color, data.temperature_color, strict=True))
     if data.use_nodes and data.node_tree is not None:
-        radiance = Nodes(data.node_tree, where, notices).lamp_emission()
+        radiance = Nodes(data, where, notices).lamp_emission()
         color = (color[0] * radiance[0], color[1] * radiance[1], color[2] * radiance[2])
     return color
 

@@ -15,10 +15,12 @@ from typing import TYPE_CHECKING, Any
 from ..scene.description import (
     BLACK,
     WHITE,
+    Add,
     Conductor,
     Glass,
     Holdout,
     Lambert,
+    Layer,
     Light,
     Material,
     Medium,
@@ -38,7 +40,7 @@ from ..scene.program import Op, TooLargeError, programmed
 from .color import EUMELANIN, PHEOMELANIN, hair_reflectance
 from .combine import add, mix
 from .displacement import bump_of_displacement
-from .nodes import Nodes
+from .nodes import Nodes, all_nodes
 from .principled import principled
 from .sockets import Input, Source
 from .subsurface import DISK, Method, most_backward, most_forward, subsurface_method
@@ -67,6 +69,9 @@ SEPARABLE_MASKING_BEFORE = (3, 5)
 # From here on the angle at each facet says how much of light rough glass reflects; before, that at the surface.
 FACETS_REFLECT_FROM = (4, 0)
 
+SHADOW_RAY = "Is Shadow Ray"
+REFRACTING = {"ShaderNodeBsdfGlass", "ShaderNodeBsdfRefraction", "ShaderNodeBsdfPrincipled"}
+
 # Inputs that are left out where they are not 0.
 LEFT_OUT = {
     "Thin Film Thickness": "the thin film is not supported and left out",
@@ -75,8 +80,12 @@ LEFT_OUT = {
     "Anisotropy": "anisotropy of glass is not supported; its roughness is round",
 }
 
-# What an object without a material shows, here and in Cycles.
-DEFAULT_SURFACE = Lambert((0.8, 0.8, 0.8))
+# What an object without a material shows, here and in Cycles: until 3.4 at least, and from 5.0 at the latest.
+OLD_DEFAULT_SURFACE = Lambert((0.8, 0.8, 0.8))
+DEFAULT_SURFACE = Layer(
+    1.0, Conductor(0.25, f0=(0.04,) * 3, f90=WHITE, f82=WHITE, ior=1.5, facets="multiple"), OLD_DEFAULT_SURFACE
+)
+HAS_GLOSSY_DEFAULT = (5, 0)
 
 
 def export_material(
@@ -91,13 +100,18 @@ def export_material(
     """object_name: the first object that uses it, for notices. version: Blender's. constants_only: what varies
     becomes a constant. aovs: the first is the engine's number 1."""
     if material is None:
-        return NamedMaterial("default", DEFAULT_SURFACE)
+        return NamedMaterial("default", DEFAULT_SURFACE if version >= HAS_GLOSSY_DEFAULT else OLD_DEFAULT_SURFACE)
     where = place(object_name, material.name)
     if not material.use_nodes or material.node_tree is None:
         return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
     shaders = _Shaders(material, where, version, notices, images)
     shaders.nodes.constants_only = constants_only
+    casts_shadows = not _lets_shadow_rays_pass(material, version, images)
+    if not casts_shadows:
+        shaders.nodes.ray_flags = {SHADOW_RAY: 0.0}
     result = shaders.output()
+    if casts_shadows and _asks_shadow_rays(material) and has_glass(result):
+        notices.add(where, "its glass stops shadow rays; what its nodes ask of them changes nothing")
     given = shaders.aovs(aovs)
     if given and isinstance(result, Null):
         result = Transparent(WHITE)  # what is not there gives nothing
@@ -117,7 +131,37 @@ def export_material(
         volume=volume,
         aovs=shown,
         normal_key=shaders.normal_key(),
+        casts_shadows=casts_shadows,
     )
+
+
+def _asks_shadow_rays(material: bpy.types.Material) -> bool:
+    nodes = (node for node in all_nodes(material.node_tree) if node.bl_idname == "ShaderNodeLightPath")
+    return any(node.outputs[SHADOW_RAY].is_linked for node in nodes)
+
+
+def has_glass(material: Material) -> bool:
+    if isinstance(material, (Mix, Add, Layer)):
+        return has_glass(material.a) or has_glass(material.b)
+    return isinstance(material, Glass)
+
+
+def _lets_shadow_rays_pass(material: bpy.types.Material, version: tuple[int, ...], images: Images | None) -> bool:
+    """Whether the nodes make glass, which the engine's shadow rays cannot pass, clear for shadow rays alone: a way to
+    have its shadows without caustics. What else they ask of rays may be so or not."""
+    if not _asks_shadow_rays(material):
+        return False
+    if not any(node.bl_idname in REFRACTING for node in all_nodes(material.node_tree)):
+        return False
+
+    def seen_by(flags: dict[str, float]) -> Material:
+        shaders = _Shaders(material, "", version, Notices(), images)
+        shaders.nodes.ray_flags = flags
+        return shaders.output()
+
+    others = ("Is Diffuse Ray", "Is Glossy Ray", "Is Singular Ray", "Is Reflection Ray", "Is Transmission Ray")
+    cases = ({SHADOW_RAY: 1.0, "Is Camera Ray": 0.0, **dict.fromkeys(others, part)} for part in (0.0, 1.0))
+    return seen_by({SHADOW_RAY: 0.0}) != Null() and all(seen_by(flags) == Null() for flags in cases)
 
 
 def export_volume(
@@ -179,7 +223,7 @@ class _Shaders:
         notices: Notices,
         images: Images | None = None,
     ) -> None:
-        self.nodes = Nodes(material.node_tree, where, notices, images)
+        self.nodes = Nodes(material, where, notices, images)
         self.nodes.material_index = material.pass_index
         self.material = material
         self.normal: Op | None = None  # of the surface, where it is not the mesh's
@@ -227,7 +271,7 @@ class _Shaders:
 
     def volume(self, grids: dict[str, Grid] | None = None) -> Medium | None:
         """grids: of a volume object, which is filled with it by them."""
-        nodes = Nodes(self.nodes.tree, self.where, self.notices, self.nodes.images)
+        nodes = Nodes(self.material, self.where, self.notices, self.nodes.images)
         nodes.material_index = self.nodes.material_index
         nodes.constants_only = self.nodes.constants_only
         nodes.in_volume = True

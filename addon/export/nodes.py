@@ -51,13 +51,40 @@ def blender_version() -> tuple[int, ...]:
     return tuple(bpy.app.version)
 
 
-class Nodes:
-    """A node tree, and where to put notices about it."""
+PLAIN = ("NodeReroute", "NodeFrame", "NodeGroupInput", "NodeGroupOutput")
 
-    def __init__(
-        self, tree: bpy.types.NodeTree, where: str, notices: Notices, images: image.Images | None = None
-    ) -> None:
-        self.tree = tree
+
+def all_nodes(tree: bpy.types.NodeTree) -> Iterator[bpy.types.Node]:
+    """Those of its groups too."""
+    seen, pending = set(), [tree]
+    while pending:
+        each = pending.pop()
+        if each.as_pointer() in seen:
+            continue
+        seen.add(each.as_pointer())
+        for node in each.nodes:
+            yield node
+            if getattr(node, "node_tree", None) is not None:
+                pending.append(node.node_tree)
+
+
+def has_zones(tree: bpy.types.NodeTree) -> bool:
+    """Whether it has nodes that Blender can write in plain shader nodes: zones, closures, bundles, switches."""
+    return any(not node.bl_idname.startswith("ShaderNode") and node.bl_idname not in PLAIN for node in all_nodes(tree))
+
+
+class Nodes:
+    """The node tree of a material, world or lamp, and where to put notices about it."""
+
+    def __init__(self, owner: Any, where: str, notices: Notices, images: image.Images | None = None) -> None:
+        self.tree: bpy.types.NodeTree = owner.node_tree
+        self._inlined: Any = None  # Blender's plain copy of the tree, which lives as long as this does
+        if hasattr(owner, "inline_shader_nodes") and has_zones(self.tree):  # from 5.0 on
+            try:
+                self._inlined = owner.inline_shader_nodes()
+                self.tree = self._inlined.node_tree
+            except RuntimeError as error:
+                notices.add(where, f"its zones cannot be rendered: {error}")
         self.where = where
         self.notices = notices
         self.images = images or image.Images()
@@ -69,6 +96,7 @@ class Nodes:
         self.sky_sun: SkySun | None = None  # of a Sky Texture that was met
         self.material_index = 0  # Blender's pass index
         self.constants_only = False  # nothing may vary
+        self.ray_flags: dict[str, float] = {}  # by the outputs of a Light Path node: what is known of the rays
         self.layer_property = self.images.layer_property  # by its name, of the view layer, the scene or its world
         self.bumped_normal: Op | None = None  # by the material's displacement: what nodes know as the normal
         self.shift = "center"  # where a bump asks for its height

@@ -28,6 +28,7 @@ from ..scene.description import (
     NamedMaterial,
     Null,
     Object,
+    Rays,
     RenderSettings,
     SceneDescription,
     Spheres,
@@ -41,7 +42,7 @@ from .instance_attributes import instance_attributes, property_of
 from .kept import Kept, owners_of
 from .light import export_lamp
 from .material import Aov, export_material, export_volume, has_aovs
-from .mesh import export_mesh, flattened
+from .mesh import doubled_faces, export_mesh, flattened
 from .motion import (
     Motion,
     Recording,
@@ -187,7 +188,8 @@ class _Source:
             collector.aovs = tuple(Aov(aov.name, aov.type == "COLOR") for aov in layer.aovs)[:MOST_AOVS]
         for placed in self.placed(self.kept):
             collector.add(placed)
-        environment, medium = export_world(scene.world, notices, collector.images, self.constants_only)
+        world = scene.world if self.depsgraph.view_layer_eval.use_sky else None
+        environment, medium = export_world(world, notices, collector.images, self.constants_only)
         lights = tuple(collector.lights)
         if medium is not None and medium.falloff is not None and collector.has_interiors():
             notices.add(
@@ -196,7 +198,7 @@ class _Source:
             )
             medium = None
         something_shines = any(shines(item.material) for item in collector.materials)
-        warn_of_black_sky(scene.world, environment, lights, medium, notices, something_shines)
+        warn_of_black_sky(world, environment, lights, medium, notices, something_shines)
         described = SceneDescription(
             film=seen.film,
             camera=camera,
@@ -305,6 +307,8 @@ class _Collector:
         note_differences(placed.item, self._notices)
         if kind != "LIGHT" and not placed.visibility.rays:
             return  # and it shines no more either
+        if not self._is_in_layer(placed):
+            return
         if placed.strands:
             self._add_hair(placed)
         elif kind == "MESH" or (kind in SHOWN_BY_OTHERS and not self.reads):
@@ -336,6 +340,15 @@ class _Collector:
     def _read_places(self, placed: Placed) -> Places:
         matrices = self._matrices(placed)
         return Places(matrices, dimensions_left(matrices), placed.randoms())
+
+    def _is_in_layer(self, placed: Placed) -> bool:
+        """A view layer may leave out all surfaces, all hair or all volume objects."""
+        layer, kind = self._depsgraph.view_layer_eval, placed.item.type
+        if placed.strands or kind == "CURVES":
+            return bool(layer.use_strand)
+        if kind == "VOLUME":
+            return bool(layer.use_volumes)
+        return bool(layer.use_solid) or kind in ("LIGHT", "POINTCLOUD")
 
     def _matrices(self, placed: Placed) -> Floats:
         matrices = placed.all_matrices()
@@ -397,15 +410,17 @@ class _Collector:
 
     def _part(self, placed: Placed, mesh: Mesh, materials: tuple[int, ...]) -> Object:
         """Without a place."""
-        item, seen = placed.item, placed.visibility
+        item, rays = placed.item, placed.visibility.rays
+        if not any(self.materials[number].casts_shadows for number in materials):
+            rays &= ~Rays.SHADOW
         return Object(
             name=item.name,
             mesh=mesh,
             materials=materials,
             object_index=item.pass_index,
             color=_rgba(item.color),
-            rays=seen.rays,
-            is_holdout=seen.is_holdout,
+            rays=rays,
+            is_holdout=placed.visibility.is_holdout,
             interior=self._interior(item, materials),
             shadow_terminator=shadow_terminator(item) if mesh.normals is not None else 0.0,
         )
@@ -632,9 +647,13 @@ class _Collector:
             return None
         key = (item.data.as_pointer(), slot_count, attributes)
         if key not in self._meshes:
-            self._meshes[key] = self._kept.get(
+            self._meshes[key], doubled = self._kept.get(
                 "meshes", owners_of(item), key, lambda: _read_mesh(item, slot_count, attributes)
             )
+            if doubled:
+                self._notices.add(
+                    place(item.name), f"{doubled} of its faces lie on others, which Cycles shows with dark spots"
+                )
         return self._meshes[key]
 
     def _material(
@@ -670,11 +689,13 @@ class _Collector:
         return found, tuple(notices.items)
 
 
-def _read_mesh(item: bpy.types.Object, slot_count: int, attributes: frozenset[str]) -> Mesh | None:
+def _read_mesh(item: bpy.types.Object, slot_count: int, attributes: frozenset[str]) -> tuple[Mesh | None, int]:
+    """And how many of its faces lie on others."""
     # A copy: triangles and split normals are made in place, and the evaluated mesh belongs to Blender.
     mesh = item.to_mesh()
     try:
-        return None if mesh is None else export_mesh(mesh, item.data.name, slot_count, attributes)
+        read = None if mesh is None else export_mesh(mesh, item.data.name, slot_count, attributes)
+        return read, 0 if read is None else doubled_faces(read)
     except (RuntimeError, ValueError, IndexError) as error:
         raise GlimmerError(f"The mesh of object '{item.name}' cannot be read: {error}") from error
     finally:

@@ -48,7 +48,7 @@ def export_world(
         notices.add(f"world '{world.name}'", "a limit of its light's bounces is not supported; it has none")
     if not world.use_nodes or world.node_tree is None:
         return Environment(radiance=(world.color[0], world.color[1], world.color[2]), rays=rays), None
-    nodes = Nodes(world.node_tree, f"world '{world.name}'", notices, images)
+    nodes = Nodes(world, f"world '{world.name}'", notices, images)
     nodes.is_sky = True
     nodes.constants_only = constants_only
     surface, volume = nodes.surface_of_output(), nodes.surface_of_output("Volume")

@@ -375,6 +375,7 @@ class NamedMaterial:
     normal_key: str = "normal"  # or "bumped_normal", "bumped_normal_cubic": how the terminator of bumps is softened
     volume: Medium | None = None  # what Blender fills the objects with that have the material
     aovs: tuple[tuple[int, Output], ...] = ()  # what the engine's AOV passes show of it, which count from 1
+    casts_shadows: bool = True  # else shadow rays pass the objects that have it
 
 
 # ---- Media --------------------------------------------------------------------------------------------------------

@@ -393,7 +393,7 @@ def haze_takes_one_click() -> None:
     assert bpy.ops.glimmer.add_haze(visual_range=200.0, color=(0.5, 0.6, 0.7), anisotropy=0.4) == {"FINISHED"}
     world = bpy.context.scene.world
     assert math.isclose(world.glimmer_haze.visual_range, 200.0, rel_tol=1e-5)
-    nodes = load("export.nodes").Nodes(world.node_tree, "world", load("scene.problems").Notices())
+    nodes = load("export.nodes").Nodes(world, "world", load("scene.problems").Notices())
     medium = load("export.volume").volume_medium(nodes, nodes.surface_of_output("Volume"))
     extinction = [a + s for a, s in zip(medium.sigma_a, medium.sigma_s, strict=True)]
     # What is left of the contrast at that distance; and the colour is how much of it is scattered.

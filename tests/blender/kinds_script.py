@@ -150,6 +150,67 @@ def slots() -> None:
     own.material_slots[0].material = material(color=(0.1, 0.9, 0.2))
 
 
+@case
+def nothing_but_the_default() -> None:
+    inside.ball("Ball")
+
+
+@case
+def sheen_of_a_dark_hue() -> None:
+    inside.ball(
+        "Ball", inside.material("ShaderNodeBsdfPrincipled", Base_Color=(0.3, 0.05, 0.3, 1.0), Sheen=1.0, Specular=0.0)
+    )
+
+
+@case
+def glass_without_shadows() -> None:
+    shader = material("ShaderNodeBsdfGlass", (1.0, 1.0, 1.0))
+    tree = shader.node_tree
+    glass = tree.nodes["Glass BSDF"]
+    glass.inputs["Roughness"].default_value = 0.0
+    mixed = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(make(tree, "ShaderNodeLightPath", "Is Shadow Ray"), mixed.inputs[0])
+    tree.links.new(glass.outputs[0], mixed.inputs[1])
+    tree.links.new(make(tree, "ShaderNodeBsdfTransparent"), mixed.inputs[2])
+    inside.plane(material=material("ShaderNodeBsdfDiffuse"))
+    pane = inside.plane("Pane", 1.0, surface(shader, mixed.outputs[0]))
+    pane.location = (0.0, 0.0, 1.0)
+    # What is seen from within glass is 1 / ior^2 as bright as in Cycles, so the pane has a back too.
+    pane.modifiers.new("Thickness", "SOLIDIFY").thickness = 0.1
+    inside.lamp("SUN", (0.0, 0.0, 5.0), energy=2.0, angle=0.0)
+
+
+@case
+def zones() -> None:
+    """0.1 and three times 0.2; and a closure that squares."""
+    if bpy.app.version < (5, 0):
+        return
+
+    def repeated(tree: Any) -> Any:
+        begin, end = tree.nodes.new("GeometryNodeRepeatInput"), tree.nodes.new("GeometryNodeRepeatOutput")
+        begin.pair_with_output(end)
+        end.repeat_items.new("FLOAT", "Sum")
+        begin.inputs["Iterations"].default_value, begin.inputs["Sum"].default_value = 3, 0.1
+        tree.links.new(make(tree, "ShaderNodeMath", inputs={0: begin.outputs["Sum"], 1: 0.2}), end.inputs["Sum"])
+        return end.outputs["Sum"]
+
+    def squared(tree: Any) -> Any:
+        begin, end = tree.nodes.new("NodeClosureInput"), tree.nodes.new("NodeClosureOutput")
+        begin.pair_with_output(end)
+        call = tree.nodes.new("NodeEvaluateClosure")
+        for node in (end, call):
+            node.input_items.new("FLOAT", "X")
+            node.output_items.new("FLOAT", "Square")
+        x = begin.outputs["X"]
+        tree.links.new(make(tree, "ShaderNodeMath", inputs={0: x, 1: x}, operation="MULTIPLY"), end.inputs["Square"])
+        tree.links.new(end.outputs["Closure"], call.inputs["Closure"])
+        call.inputs["X"].default_value = 0.7
+        return call.outputs["Square"]
+
+    inside.ball("Repeat", shown(repeated), (-1.2, 0.0, 1.0))
+    inside.ball("Closure", shown(squared), (1.2, 0.0, 1.0))
+
+
 # ---- Attributes --------------------------------------------------------------------------------------------------
 
 
@@ -273,6 +334,18 @@ def set_behind_the_scene() -> None:
 
 
 @case
+def layer_without_sky() -> None:
+    bpy.context.view_layer.use_sky = False
+    inside.ball("Ball", material())
+
+
+@case
+def layer_without_surfaces() -> None:
+    bpy.context.view_layer.use_solid = False
+    inside.ball("Ball", material())
+
+
+@case
 def camera_of_a_marker() -> None:
     scene = bpy.context.scene
     other = bpy.data.objects.new("Other", bpy.data.cameras.new("Other"))
@@ -295,6 +368,8 @@ def compared(out: Path, build: Callable[[], None]) -> dict[str, Any]:
     scene = inside.empty_scene((0.3, 0.35, 0.4))
     scene.timeline_markers.clear()
     scene.background_set = None
+    layer = bpy.context.view_layer
+    layer.use_sky = layer.use_solid = True
     build()
     scene = bpy.context.scene
     set_up_cycles(scene, samples=SAMPLES)
