@@ -7,6 +7,20 @@ from ..film.passes import LONG_NAMES, OPTIONAL
 from .panel import GlimmerPanel, draw_wrapped
 
 
+class GLIMMER_PT_filter(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Filter"
+    bl_context = "view_layer"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        column, view_layer = self.layout.column(heading="Include"), context.view_layer
+        column.prop(view_layer, "use_sky", text="Environment")
+        column.prop(view_layer, "use_solid", text="Surfaces")
+        column.prop(view_layer, "use_strand", text="Hair")
+        column.prop(view_layer, "use_volumes", text="Volumes")
+
+
 class GLIMMER_PT_passes(GlimmerPanel, bpy.types.Panel):
     bl_label = "Passes"
     bl_context = "view_layer"
@@ -91,6 +105,7 @@ class GLIMMER_PT_view_layer_override(GlimmerPanel, bpy.types.Panel):
 
 
 _CLASSES = (
+    GLIMMER_PT_filter,
     GLIMMER_PT_passes,
     GLIMMER_PT_cryptomatte,
     GLIMMER_PT_aovs,

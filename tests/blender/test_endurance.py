@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Many renders in one window, stopped at random moments, with file loads, undo, rendered views and the add-on switched
-off and on between them: no crash, and nothing left behind.
+off and on between them (rendered views among many rounds only): no crash, and nothing left behind.
 """
 
 import json
