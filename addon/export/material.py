@@ -106,11 +106,12 @@ def export_material(
         return NamedMaterial(material.name_full, viewport_surface(material), material.pass_index)
     shaders = _Shaders(material, where, version, notices, images)
     shaders.nodes.constants_only = constants_only
-    casts_shadows = not _lets_shadow_rays_pass(material, version, images)
+    asks_shadow_rays = _asks_shadow_rays(material)
+    casts_shadows = not (asks_shadow_rays and _lets_shadow_rays_pass(material, version, images))
     if not casts_shadows:
         shaders.nodes.ray_flags = {SHADOW_RAY: 0.0}
     result = shaders.output()
-    if casts_shadows and _asks_shadow_rays(material) and has_glass(result):
+    if casts_shadows and asks_shadow_rays and has_glass(result):
         notices.add(where, "its glass stops shadow rays; what its nodes ask of them changes nothing")
     given = shaders.aovs(aovs)
     if given and isinstance(result, Null):
@@ -147,10 +148,8 @@ def has_glass(material: Material) -> bool:
 
 
 def _lets_shadow_rays_pass(material: bpy.types.Material, version: tuple[int, ...], images: Images | None) -> bool:
-    """Whether the nodes make glass, which the engine's shadow rays cannot pass, clear for shadow rays alone: a way to
-    have its shadows without caustics. What else they ask of rays may be so or not."""
-    if not _asks_shadow_rays(material):
-        return False
+    """Whether nodes that ask for shadow rays make glass, which the engine's shadow rays cannot pass, clear for them
+    alone: a way to have its shadows without caustics. What else they ask of rays may be so or not."""
     if not any(node.bl_idname in REFRACTING for node in all_nodes(material.node_tree)):
         return False
 

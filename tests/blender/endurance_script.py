@@ -85,8 +85,8 @@ def nothing() -> None:
     pass
 
 
-# In few rounds no view is shown. Now and then, when a view and a render call Python at once, Blender 3.4 refuses every
-# change of its data from then on ("can't modify blend data in this state"), and the rounds cannot go on.
+# In few rounds no view is shown. With one, Blender 3.4 was once seen to refuse every change of its data from then on
+# ("can't modify blend data in this state"), so that the rounds could not go on; why is not known.
 VIEWS: tuple[Callable[[], None], ...] = (show_view, hide_view) if COUNT > 100 else ()
 DISTURBANCES: tuple[Callable[[], None], ...] = (load_file, undo, switch_off_and_on, *VIEWS, nothing)
 
