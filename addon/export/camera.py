@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.description import WHOLE, Camera, Floats, Orthographic, Panorama, Perspective, Projection
+from ..scene.description import WHOLE, Aperture, Camera, Floats, Orthographic, Panorama, Perspective, Projection
 from ..scene.problems import GlimmerError, Notices, place
 from .panorama import Window, panorama
 from .stereo import Eye
@@ -90,6 +90,7 @@ def export_camera(
         stereo=None if eye is None else eye.spherical,
         lens_radius=lens_radius,
         focus_distance=focus_distance,
+        aperture=_aperture(data),
         clip_start=data.clip_start,
         clip_end=data.clip_end,
     )
@@ -164,6 +165,7 @@ def export_view(
         shift=shift,
         lens_radius=lens_radius,
         focus_distance=focus_distance,
+        aperture=Aperture() if data is None else _aperture(data),
         clip_start=clip_start,
         clip_end=clip_end,
     )
@@ -179,8 +181,6 @@ def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notice
     dof = data.dof
     if not dof.use_dof or dof.aperture_fstop <= 0.0:
         return 0.0, 1.0
-    if dof.aperture_blades > 2 or dof.aperture_ratio != 1.0:
-        notices.add(where, "aperture blades and ratio are not supported; the aperture is round")
     distance = dof.focus_distance
     if dof.focus_object is not None:
         target = np.array(dof.focus_object.matrix_world.translation, np.float64)
@@ -189,7 +189,15 @@ def _depth_of_field(data: bpy.types.Camera, to_world: Floats, where: str, notice
     # has none; Cycles takes one unit for it.
     diameter = 1.0 if data.type == "ORTHO" else 1e-3 * data.lens
     radius, distance = 0.5 * diameter / dof.aperture_fstop, max(distance, 1e-5)
-    if data.type == "PANO" and radius > distance:
+    reach = max(1.0, 1.0 / dof.aperture_ratio)
+    if data.type == "PANO" and radius * reach > distance:
         notices.add(where, "the aperture is larger than the distance in focus; it is as large as that")
-        radius = distance
+        radius = distance / reach
     return radius, distance
+
+
+def _aperture(data: bpy.types.Camera) -> Aperture:
+    dof = data.dof
+    if not dof.use_dof:
+        return Aperture()
+    return Aperture(dof.aperture_blades, degrees(dof.aperture_rotation), dof.aperture_ratio)

@@ -164,6 +164,12 @@ class NativeScene:
         _set_projection(desc, camera.projection)
         desc.shift = (c_double * 2)(*camera.shift)
         desc.lens_radius, desc.focus_distance = camera.lens_radius, camera.focus_distance
+        aperture = camera.aperture
+        desc.aperture_blades, desc.aperture_rotation, desc.aperture_ratio = (
+            aperture.blades,
+            aperture.rotation,
+            aperture.ratio,
+        )
         desc.clip_start, desc.clip_end = camera.clip_start, camera.clip_end
         if camera.stereo is not None:
             desc.stereo_offset, desc.stereo_convergence = camera.stereo.offset, camera.stereo.convergence

@@ -287,6 +287,9 @@ class CameraDesc(ctypes.Structure):
         ("stereo_offset", c_double),
         ("stereo_convergence", c_double),
         ("stereo_merge", c_double * 2),
+        ("aperture_blades", c_uint32),
+        ("aperture_rotation", c_double),
+        ("aperture_ratio", c_double),
     ]
 
 

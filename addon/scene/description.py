@@ -156,6 +156,15 @@ class SphericalStereo:
 
 
 @dataclass(frozen=True)
+class Aperture:
+    """The shape of a lens: round, or a regular polygon of three blades or more in the same circle."""
+
+    blades: int = 0
+    rotation: float = 0.0  # degrees, of the middle of an edge from right to up
+    ratio: float = 1.0  # divides the extent from left to right
+
+
+@dataclass(frozen=True)
 class Camera:
     to_world: Floats  # rotation or reflection, and translation; looks along -z, y up
     projection: Projection
@@ -165,6 +174,7 @@ class Camera:
     clip_start: float = 0.0  # along the axis; below 0, behind it, for an orthographic camera alone; of panoramas radii
     clip_end: float = float("inf")
     stereo: SphericalStereo | None = None
+    aperture: Aperture = Aperture()
     motion: Floats | None = None  # (steps, 4, 4), evenly spaced while the shutter is open, in place of to_world
 
 

@@ -299,6 +299,8 @@ def _camera(camera: d.Camera) -> Json:
         result["shift"] = list(camera.shift)
     if camera.lens_radius > 0.0:
         result["lens_radius"], result["focus_distance"] = camera.lens_radius, camera.focus_distance
+        if camera.aperture != d.Aperture():
+            result["aperture"] = asdict(camera.aperture)
     if camera.clip_start != 0.0 or not isinf(camera.clip_end):
         result["clip"] = [camera.clip_start, None if isinf(camera.clip_end) else camera.clip_end]
     return result

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Panoramas, and depth of field. Blender's panels belong to EEVEE and Workbench, and hold what Glimmer does not render:
-blades and ratio of the aperture, which stand here only where a file has set them.
-"""
+"""Panoramas, and depth of field: Blender's panels belong to EEVEE and Workbench."""
 
 import bpy
 
@@ -52,15 +50,8 @@ class GLIMMER_PT_depth_of_field(GlimmerPanel, bpy.types.Panel):
         distance = layout.column()
         distance.active = dof.focus_object is None
         distance.prop(dof, "focus_distance", text="Focus Distance")
-        layout.prop(dof, "aperture_fstop")
-        if not is_round(dof):
-            draw_wrapped(layout, context, "The aperture is round in Glimmer, whatever these say", "INFO")
-            for name in ("aperture_blades", "aperture_rotation", "aperture_ratio"):
-                layout.prop(dof, name)
-
-
-def is_round(dof: bpy.types.CameraDOFSettings) -> bool:
-    return dof.aperture_blades < 3 and dof.aperture_ratio == 1.0
+        for name in ("aperture_fstop", "aperture_blades", "aperture_rotation", "aperture_ratio"):
+            layout.prop(dof, name)
 
 
 register, unregister = bpy.utils.register_classes_factory((GLIMMER_PT_panorama, GLIMMER_PT_depth_of_field))

@@ -439,6 +439,11 @@ typedef struct glimmer_camera_desc {
      * nowhere). From stereo_merge[0] to [1] degrees above and below the horizon the offset falls to 0; default 180,
      * 180: nowhere. */
     double stereo_offset, stereo_convergence, stereo_merge[2];
+    /* The aperture: from 3 blades on (1024 at most) a regular polygon in the circle of the lens, the middle of an edge
+     * turned by `aperture_rotation` degrees from x (right; y is up) counterclockwise; default 0, round. After that its
+     * extent along x is divided by `aperture_ratio`, 1e-3 to 1e3, default 1. */
+    uint32_t aperture_blades;
+    double aperture_rotation, aperture_ratio;
 } glimmer_camera_desc;
 
 GLIMMER_API void glimmer_camera_init(glimmer_camera_desc *desc);

@@ -11,11 +11,17 @@ struct probe_camera {
     float half_width, aspect, shift[2], lens_radius, focus_distance, clip_start, clip_end;
     int32_t panorama; // PanoramaType
     float longitude[2], latitude[2], half_angle, focal_length, polynomial[5], window[4];
+    uint32_t blades;
+    float rotation, scale[2]; // of the aperture
 };
+
+static Aperture aperture(const probe_camera &c) {
+    return {c.blades, c.rotation, load2(c.scale)};
+}
 
 static Camera camera(const probe_camera &c) {
     const CameraBase base{load3(c.right), load3(c.up),      load3(c.forward), c.half_width, c.aspect, load2(c.shift),
-                          c.lens_radius,  c.focus_distance, c.clip_start,     c.clip_end,   {}};
+                          c.lens_radius,  c.focus_distance, c.clip_start,     c.clip_end,   {},       aperture(c)};
     if (c.type == 1)
         return OrthographicCamera{base};
     if (c.type == 2) {
@@ -42,6 +48,22 @@ PROBE void probe_camera_generate(const probe_camera *c, const float *film, const
         store(rays + 7 * i + 3, ray.direction);
         rays[7 * i + 6] = ray.t_max;
     }
+}
+
+/// disk [n, 2]; points of the aperture [n, 2].
+PROBE void probe_camera_lens(const probe_camera *c, const float *disk, uint64_t n, float *points) {
+    for (uint64_t i = 0; i < n; ++i) {
+        const Vec2f point = aperture(*c).point(load2(disk + 2 * i));
+        points[2 * i] = point.x, points[2 * i + 1] = point.y;
+    }
+}
+/// points [n, 2]; inside [n].
+PROBE void probe_camera_is_on_lens(const probe_camera *c, const float *points, uint64_t n, int32_t *inside) {
+    for (uint64_t i = 0; i < n; ++i)
+        inside[i] = aperture(*c).contains(load2(points + 2 * i));
+}
+PROBE float probe_camera_lens_area(const probe_camera *c) {
+    return aperture(*c).area();
 }
 
 /// film [n, 2]; seen [n]: whether the ray is not blind.

@@ -63,7 +63,13 @@ def camera() -> d.Camera:
         [[1, 0, 0, 0.2], [0, cos(tilt), -sin(tilt), -7], [0, sin(tilt), cos(tilt), 3.5], [0, 0, 0, 1]], np.float64
     )
     return d.Camera(
-        to_world, d.Perspective(55.0), shift=(0.03, -0.02), lens_radius=0.05, focus_distance=7.0, clip_end=60.0
+        to_world,
+        d.Perspective(55.0),
+        shift=(0.03, -0.02),
+        lens_radius=0.05,
+        focus_distance=7.0,
+        aperture=d.Aperture(6, 10.0, 0.8),
+        clip_end=60.0,
     )
 
 

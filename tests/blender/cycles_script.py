@@ -9,11 +9,13 @@ import itertools
 import math
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -122,6 +124,24 @@ def fisheye() -> None:
     data.type, data.shift_x, data.shift_y = "PANO", 0.0, 0.0
     settings = data if hasattr(data, "panorama_type") else data.cycles
     settings.panorama_type, settings.fisheye_fov = "FISHEYE_EQUIDISTANT", 2.5
+
+
+def through_an_aperture(build: Callable[[], None]) -> None:
+    """A bright ball far out of focus before the black world: its picture has the shape of the aperture."""
+    build()
+    for item in list(bpy.context.scene.collection.objects):
+        if item.type == "MESH":
+            bpy.data.objects.remove(item)
+    item = bpy.context.scene.camera
+    bpy.context.view_layer.update()
+    is_panorama = item.data.type == "PANO"  # which turns its aperture about the axis of view
+    ahead = item.matrix_world.normalized() @ Vector((12.0, -8.0, -12.0) if is_panorama else (0.3, -0.2, -20.0))
+    inside.ball("Far", inside.material("ShaderNodeEmission", Color=OCHRE, Strength=300.0), tuple(ahead), 16)
+    data = item.data
+    data.shift_x = data.shift_y = 0.0
+    data.dof.aperture_blades, data.dof.aperture_rotation, data.dof.aperture_ratio = 3, 0.4, 0.8
+    radius = {"PERSP": 1.0, "ORTHO": 0.6, "PANO": 2.5}[data.type]  # of a picture of the ball that shows its shape
+    data.dof.aperture_fstop = 0.5 * (1.0 if data.type == "ORTHO" else 1e-3 * data.lens) / radius
 
 
 def instances() -> None:
@@ -412,6 +432,9 @@ SCENES: dict[str, Callable[[], Any]] = {
     "camera": camera,
     "orthographic": orthographic,
     "fisheye": fisheye,
+    "aperture": partial(through_an_aperture, camera),
+    "aperture, orthographic": partial(through_an_aperture, orthographic),
+    "aperture, fisheye": partial(through_an_aperture, fisheye),
     "instances": instances,
     "hidden instancers": hidden_instancers,
     "curves and texts": curves_and_texts,

@@ -50,7 +50,6 @@ NEEDS_NO_PANEL = {
 }
 # What Glimmer's panels draw and the add-on's code does not name, and why.
 IS_BLENDERS_WORK = {
-    "CameraDOFSettings.aperture_rotation": "drawn with the blades, which a notice says are not rendered",
     "GlimmerSceneSettings.noise_limit": "kept as target_error",
     "GlimmerSceneSettings.max_bounces": "kept as max_depth",
     "GlimmerSceneSettings.volume_bounces": "kept as max_scatter",

@@ -97,6 +97,7 @@ def every_key(folder: Path) -> Scene:
             "shift": [0.1, -0.1],
             "lens_radius": 0.01,
             "focus_distance": 8,
+            "aperture": {"blades": 5, "rotation": 10, "ratio": 1.5},
             "clip": [0.1, None],
         },
         "materials": {

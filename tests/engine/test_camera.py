@@ -33,7 +33,12 @@ PINHOLES = {
 CAMERAS = {
     **PINHOLES,
     **{f"{name}, lens": replace(c, lens_radius=1.5, focus_distance=4.0) for name, c in PINHOLES.items()},
+    **{
+        f"{name}, aperture": replace(c, lens_radius=1.5, focus_distance=4.0, blades=5, rotation=0.4, scale=(0.6, 1.0))
+        for name, c in PLAIN.items()
+    },
 }
+APERTURES = [(0, 0.0, (0.5, 1.0)), (3, 0.0, (1.0, 1.0)), (4, 0.3, (1.0, 0.4)), (7, -2.0, (0.8, 1.0))]
 
 
 def disk(rng: np.random.Generator, count: int) -> Array:
@@ -160,3 +165,30 @@ def test_rays_start_within_the_region_that_is_said(name: str) -> None:
     apart = np.linalg.norm(starts - region[:3], axis=1)
     assert apart.max() <= region[3] * (1 + 1e-5) + 1e-6
     assert apart.max() >= region[3] * 0.5  # not far too large
+
+
+@pytest.mark.parametrize(("blades", "rotation", "scale"), APERTURES)
+def test_an_aperture_is_a_polygon_seen_evenly(blades: int, rotation: float, scale: tuple[float, float]) -> None:
+    camera = Camera(PERSPECTIVE, axes(), blades=blades, rotation=rotation, scale=scale)
+    count = 400_000
+    lens = probe.lens_points(camera, disk(np.random.default_rng(RNG_SEED), count)).astype(np.float64)
+    assert probe.is_on_lens(camera, lens * (1 - 1e-5)).all()
+    # Of a regular polygon of n corners on the unit circle: area n sin(2 pi / n) / 2, E[x^2] = (2 + cos(2 pi / n)) / 12.
+    turn = 2 * np.pi / blades if blades else 0.0
+    area = (blades * np.sin(turn) / (2 * np.pi) if blades else 1.0) * scale[0] * scale[1]
+    assert probe.lens_area(camera) == pytest.approx(area, rel=1e-6)
+    expected = np.diag(np.square(scale)) * (2 + np.cos(turn)) / 12
+    np.testing.assert_allclose(lens.T @ lens / count, expected, atol=5 * 0.3 / np.sqrt(count))
+    np.testing.assert_allclose(lens.mean(axis=0), 0, atol=5 * 0.5 / np.sqrt(count))
+    # It holds as much of a square as the area says, and the same part of it.
+    square = np.random.default_rng(1).uniform(-1, 1, (count, 2))
+    inside = probe.is_on_lens(camera, square)
+    assert inside.mean() * 4 / np.pi == pytest.approx(area, abs=5 * 0.65 / np.sqrt(count))
+    np.testing.assert_allclose(
+        square[inside].T @ square[inside] / inside.sum(), expected, atol=5 * 0.3 / np.sqrt(inside.sum())
+    )
+    if blades:
+        middle = rotation + turn * np.arange(blades)
+        out = lens / scale @ np.stack([np.cos(middle), np.sin(middle)])
+        assert out.max() <= np.cos(turn / 2) + 1e-6
+        np.testing.assert_allclose(out.max(axis=0), np.cos(turn / 2), atol=1e-3)

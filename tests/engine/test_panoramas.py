@@ -140,10 +140,13 @@ def test_solid_angles_are_what_neighbouring_rays_span(name: str) -> None:
 
 
 @pytest.mark.parametrize("away", [0.7, 3.5, 4.0005, 12.0])
+@pytest.mark.parametrize("blades", [0, 3])
 @pytest.mark.parametrize("name", ["equirectangular", "equisolid", "cube face", "polynomial"])
-def test_a_lens_sees_as_much_by_rays_as_by_projection(name: str, away: float) -> None:
+def test_a_lens_sees_as_much_by_rays_as_by_projection(name: str, blades: int, away: float) -> None:
     """What the film receives of a small glowing ball, from the camera's side and from the ball's."""
     camera = replace(PANORAMAS[name], lens_radius=0.5, focus_distance=4.0)
+    if blades:
+        camera = replace(camera, blades=blades, rotation=0.3, scale=(1.0, 0.7))
     rng, count, width = np.random.default_rng(4), 400_000, 0.15 * away
     center = AXES.T @ (np.array([0.5, 0.3, 0.8]) / np.linalg.norm([0.5, 0.3, 0.8])) * away
     # The film about the ball, so that few rays miss.

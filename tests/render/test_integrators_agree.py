@@ -117,11 +117,12 @@ def channels_apart() -> Builder:
     return scene.sphere((0, 3, 1), 0.5, d.Light((8, 5, 3)))
 
 
-def glints_through_a_lens() -> Builder:
+def glints_through_a_lens(aperture: d.Aperture = d.Camera.aperture) -> Builder:
     """What smooth metal and a mirror throw into the fog, in a picture with all that a camera has."""
     scene = field(d.Medium((0.01, 0.02, 0.01), (0.06, 0.1, 0.08)), d.Conductor(0.03, f0=grey(0.9)))
     scene.sphere((1.5, 3, 1), 0.7, d.Mirror(WHITE)).sphere((-1, 6, 0.8), 0.6, d.Glass(1.4))
     view = replace(camera((0, -4, 4), (0, 8, 1.5), 60), shift=(0.1, -0.05), lens_radius=0.2, focus_distance=7)
+    view = replace(view, aperture=aperture)
     film = d.Film(40, 30, (5, 3, 37, 27), "blackman_harris", 1.8)
     return scene.seen_by(replace(view, clip_start=0.5, clip_end=40), film)
 
@@ -148,6 +149,7 @@ def metal_in_parallel_rays() -> Builder:
     return light_by_way_of_metal().seen_by(view, d.Film(40, 30, (5, 3, 37, 27), "blackman_harris", 1.8))
 
 
+APERTURE = d.Aperture(blades=3, rotation=20, ratio=2)
 PANORAMAS: dict[str, d.Panorama] = {
     "panorama": d.Equirectangular(),  # whole, so that filters reach past its edges
     "fisheye": d.FisheyeEquidistant(100.0),
@@ -159,10 +161,12 @@ PANORAMAS: dict[str, d.Panorama] = {
 }
 
 
-def metal_in_a_panorama(panorama: d.Panorama) -> Builder:
+def metal_in_a_panorama(panorama: d.Panorama, aperture: d.Aperture = d.Camera.aperture) -> Builder:
     """The fog behind the screen, half of its light thrown there by smooth metal, through a lens."""
     view = d.Camera(look_at((3, -3, 2.2), (3, 4, 2.2)), panorama, lens_radius=0.3, focus_distance=5, clip_start=0.2)
-    return light_by_way_of_metal().seen_by(view, d.Film(32, 24, filter="blackman_harris", filter_width=2.5))
+    return light_by_way_of_metal().seen_by(
+        replace(view, aperture=aperture), d.Film(32, 24, filter="blackman_harris", filter_width=2.5)
+    )
 
 
 def moving_plates() -> Builder:
@@ -289,6 +293,8 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "light close above metal": light_close_above_metal,
     "far forward": lambda: field(d.Medium((0.0, 0.01, 0.02), (0.06, 0.05, 0.05), 0.85)),
     "glints through a lens": glints_through_a_lens,
+    "glints through an aperture": lambda: glints_through_a_lens(APERTURE),
+    "metal, fisheye, aperture": lambda: metal_in_a_panorama(PANORAMAS["fisheye"], replace(APERTURE, ratio=0.5)),
     "light by way of metal, in parallel rays": metal_in_parallel_rays,
     "glass in parallel rays, through a lens": lambda: from_a_distance(glass_in_fog()),
     **{f"metal, {name}": partial(metal_in_a_panorama, kind) for name, kind in PANORAMAS.items()},
@@ -316,7 +322,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
 LONG = (
     "light by way of metal, in a mirror",
     "light by way of metal, forward",
-    *(f"metal, {name}" for name in PANORAMAS),
+    *(f"metal, {name}" for name in (*PANORAMAS, "fisheye, aperture")),
 )
 
 

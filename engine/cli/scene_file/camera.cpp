@@ -87,6 +87,16 @@ void read_stereo(const Value &stereo, glimmer_camera_desc &desc) {
     read_numbers(stereo, "merge", desc.stereo_merge);
 }
 
+void read_aperture(const Value &aperture, glimmer_camera_desc &desc) {
+    aperture.expect_object({"blades", "rotation", "ratio"});
+    if (const auto blades = aperture.find("blades"))
+        desc.aperture_blades = uint32_t(blades->integer(0, 1024));
+    if (const auto rotation = aperture.find("rotation"))
+        desc.aperture_rotation = rotation->number();
+    if (const auto ratio = aperture.find("ratio"))
+        desc.aperture_ratio = ratio->number(kPositive);
+}
+
 void read_panorama(const Value &value, glimmer_camera_desc &desc) {
     read_numbers(value, "window", desc.window);
     read_numbers(value, "longitude", desc.longitude);
@@ -113,8 +123,8 @@ void read_camera(const Value &value, glimmer_scene *scene) {
     value.expect_table();
     if (const auto type = value.find("type"))
         desc.type = glimmer_camera_type(one_of(*type, "a camera type", "camera types", names));
-    std::vector<std::string_view> keys{"type",        "origin",         "target", "up",    "to_world",
-                                       "lens_radius", "focus_distance", "clip",   "motion"};
+    std::vector<std::string_view> keys{"type",        "origin",         "target", "up",     "to_world",
+                                       "lens_radius", "focus_distance", "clip",   "motion", "aperture"};
     if (desc.type != GLIMMER_ORTHOGRAPHIC)
         keys.push_back("stereo");
     const std::vector<std::string_view> own = keys_of(desc.type);
@@ -147,6 +157,8 @@ void read_camera(const Value &value, glimmer_scene *scene) {
         desc.focus_distance = distance->number(kPositive);
     else if (desc.lens_radius > 0)
         value.fail("a lens_radius above 0 needs a focus_distance");
+    if (const auto aperture = value.find("aperture"))
+        read_aperture(*aperture, desc);
     if (const auto clip = value.find("clip"))
         read_clip(*clip, desc);
     check(glimmer_scene_set_camera(scene, &desc), value.where());

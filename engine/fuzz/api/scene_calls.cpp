@@ -176,6 +176,9 @@ void set_camera(Input &in, glimmer_scene *scene) {
     if (in.ConsumeBool())
         desc.lens_radius = in.number(), desc.focus_distance = in.number();
     if (in.ConsumeBool())
+        desc.aperture_blades = in.ConsumeIntegral<uint8_t>(), desc.aperture_rotation = in.number(),
+        desc.aperture_ratio = in.number();
+    if (in.ConsumeBool())
         desc.clip_start = in.number(), desc.clip_end = in.number();
     if (in.ConsumeBool())
         desc.type = static_cast<glimmer_camera_type>(in.ConsumeIntegralInRange<int>(0, 9)), desc.width = in.number();

@@ -418,6 +418,7 @@ void glimmer_camera_init(glimmer_camera_desc *desc) {
     desc->polynomial[1] = kPiDouble;
     desc->stereo_convergence = HUGE_VAL;
     desc->stereo_merge[0] = desc->stereo_merge[1] = 180;
+    desc->aperture_ratio = 1;
 }
 
 static void check_stereo(const glimmer_camera_desc &d) {
@@ -454,8 +455,9 @@ static void check_panorama(const glimmer_camera_desc &d) {
         fail_argument("camera: focal_length is " + text(d.focal_length) + "; allowed: 1e-6 to 1e6");
     for (const double v : d.polynomial)
         check_range(v, -1e6, 1e6, "camera: polynomial");
-    if (d.lens_radius > d.focus_distance)
-        fail_argument("camera: lens_radius is " + text(d.lens_radius) + "; allowed for a panorama: focus_distance, " +
+    const double reach = d.lens_radius * std::max(1.0, 1 / d.aperture_ratio);
+    if (reach > d.focus_distance)
+        fail_argument("camera: lens_radius is " + text(reach) + "; allowed for a panorama: focus_distance, " +
                       text(d.focus_distance) + ", at most");
 }
 
@@ -496,6 +498,9 @@ glimmer_result glimmer_scene_set_camera(glimmer_scene *scene, const glimmer_came
         check_least(d.focus_distance, 0, "camera: focus_distance");
         if (d.lens_radius > 0 && d.focus_distance == 0)
             fail_argument("camera: focus_distance is 0; a lens with a radius needs one above 0");
+        check_range(d.aperture_blades, 0, 1024, "camera: aperture_blades");
+        check_finite(d.aperture_rotation, "camera: aperture_rotation");
+        check_range(d.aperture_ratio, 1e-3, 1e3, "camera: aperture_ratio");
         if (!perspective && !orthographic)
             check_panorama(d);
         check_stereo(d);

@@ -2,6 +2,7 @@
 // What the kinds of cameras have in common, and the words in which they answer (camera.h).
 #pragma once
 
+#include "camera/aperture.h"
 #include "geometry/ray.h"
 #include "math/constants.h"
 #include "math/vec.h"
@@ -81,16 +82,18 @@ struct SphericalStereo {
     }
 };
 
-/// A frame at the scene's origin, where the camera stands; the part of the image plane that the film shows; a round
-/// lens about the origin; two clipping planes across the axis.
+/// A frame at the scene's origin, where the camera stands; the part of the image plane that the film shows; a lens
+/// about the origin; two clipping planes across the axis.
 struct CameraBase {
     Vec3f right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; ///< orthonormal
     float half_width = 1;                                 ///< of the film on the image plane
     float aspect = 1;                                     ///< height / width
     Vec2f shift;                                          ///< in widths
-    float lens_radius = 0, focus_distance = 0;            ///< lengths; the distance is along the axis
+    float lens_radius = 0, focus_distance = 0;            ///< lengths; within the radius lies all of the aperture, the
+                                                          ///< distance is along the axis
     float clip_start = 0, clip_end = kInfinity;           ///< lengths along the axis
     SphericalStereo stereo;                               ///< not of an orthographic camera
+    Aperture aperture;
 
     bool has_lens() const { return lens_radius > 0; }
     float depth(const Vec3f &x) const { return dot(x, forward); }
@@ -103,8 +106,11 @@ struct CameraBase {
     bool is_invertible(Vec2f) const { return stereo.offset == 0; }
     bool has_blind_places() const { return false; }
 
-    /// From a point of the unit disk.
-    Vec3f lens_point(Vec2f lens) const { return (right * lens.x + up * lens.y) * lens_radius; }
+    /// Uniform points of the unit disk give uniform ones of the aperture.
+    Vec3f lens_point(Vec2f disk) const {
+        const Vec2f lens = aperture.point(disk);
+        return (right * lens.x + up * lens.y) * lens_radius;
+    }
 
     /// Where on the image plane a point of the film is, along `right` and `up`, and the inverse.
     Vec2f image_point(Vec2f film) const {

@@ -45,10 +45,10 @@ struct PanoramicCamera : CameraBase {
             axis = around(axis, lens, cap);
             const float along = dot(x, axis), left = 1 - along / focus_distance;
             start = (x - axis * along) * (1 / left);
-            if (!(along > 0) || !(length_squared(start) <= lens_radius * lens_radius * (1 + 1e-4f)) || !(sine > 0))
+            if (!(along > 0) || !is_on_lens(start, axis) || !(sine > 0))
                 return std::nullopt;
             const float cosine = focus_distance / length(axis * focus_distance - start);
-            area = lens_radius * lens_radius * left * left * cosine / (2 * cap * away * away);
+            area = lens_radius * lens_radius * aperture.area() * left * left * cosine / (2 * cap * away * away);
         }
         const Vec3f way = x - start;
         const float distance = length(way);
@@ -116,10 +116,20 @@ struct PanoramicCamera : CameraBase {
     Vec3f to_camera(const Vec3f &d) const { return {dot(d, right), dot(d, up), dot(d, forward)}; }
 
     /// The lens faces `direction`; x leads to the axis, as in Cycles.
-    Vec3f lens_point(Vec2f lens, const Vec3f &direction) const {
-        Vec3f x = forward - direction * dot(forward, direction);
-        x = length_squared(x) > 1e-12f ? normalize(x) : up;
+    Vec3f lens_axis(const Vec3f &direction) const {
+        const Vec3f x = forward - direction * dot(forward, direction);
+        return length_squared(x) > 1e-12f ? normalize(x) : up;
+    }
+    Vec3f lens_point(Vec2f disk, const Vec3f &direction) const {
+        const Vec2f lens = aperture.point(disk);
+        const Vec3f x = lens_axis(direction);
         return (x * lens.x + cross(direction, x) * lens.y) * lens_radius;
+    }
+    bool is_on_lens(const Vec3f &start, const Vec3f &direction) const {
+        if (aperture.is_disk()) // whose rays are all that reach the cap; but for rounding
+            return length_squared(start) <= lens_radius * lens_radius * (1 + 1e-4f);
+        const Vec3f x = lens_axis(direction);
+        return aperture.contains({dot(start, x) / lens_radius, dot(start, cross(direction, x)) / lens_radius});
     }
 
     /// 1 - cos of the angle about a point, `away` from the camera, within which rays through it meet what is in focus.

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "scene/builder.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace glimmer {
@@ -19,7 +20,11 @@ CameraBase camera_base(const glimmer_camera_desc &c, const Affine &to_world, flo
     camera.half_width = float(half_width);
     camera.aspect = aspect;
     camera.shift = {float(c.shift[0]), float(c.shift[1])};
-    camera.lens_radius = float(c.lens_radius);
+    const double reach = std::max(1.0, 1 / c.aperture_ratio);
+    camera.lens_radius = float(c.lens_radius * reach);
+    camera.aperture = {c.aperture_blades,
+                       float(c.aperture_rotation * kPiDouble / 180),
+                       {float(1 / c.aperture_ratio / reach), float(1 / reach)}};
     camera.focus_distance = float(c.focus_distance);
     camera.clip_start = float(c.clip_start);
     camera.clip_end = float(c.clip_end);

@@ -29,6 +29,9 @@ class _Camera(ctypes.Structure):
         *((name, ctypes.c_float) for name in ("half_angle", "focal_length")),
         ("polynomial", ctypes.c_float * 5),
         ("window", ctypes.c_float * 4),
+        ("blades", ctypes.c_uint32),
+        ("rotation", ctypes.c_float),
+        ("scale", ctypes.c_float * 2),
     )
 
 
@@ -50,6 +53,9 @@ class Camera:
     focal_length: float = 0.3
     polynomial: tuple[float, ...] = (0.0, np.pi, 0.0, 0.0, 0.0)
     window: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
+    blades: int = 0
+    rotation: float = 0.0
+    scale: tuple[float, float] = (1.0, 1.0)
 
     def made(self) -> Any:
         c = _Camera(self.type)
@@ -65,6 +71,7 @@ class Camera:
         c.panorama, c.half_angle, c.focal_length = self.panorama, self.half_angle, self.focal_length
         c.longitude[:], c.latitude[:], c.polynomial[:] = self.longitude, self.latitude, self.polynomial
         c.window[:] = self.window
+        c.blades, c.rotation, c.scale[:] = self.blades, self.rotation, self.scale
         return ctypes.byref(c)
 
 
@@ -81,6 +88,26 @@ def generate(camera: Camera, film: ArrayLike, lens: ArrayLike) -> Array:
     rays = empty(n, 7)
     call("probe_camera_generate", camera.made(), points, f32(lens, n, 2), np.uint64(n), rays)
     return rays
+
+
+def lens_points(camera: Camera, disk: ArrayLike) -> Array:
+    """(n, 2): points of the aperture."""
+    points = f32(disk)
+    out = empty(len(points), 2)
+    call("probe_camera_lens", camera.made(), points, np.uint64(len(points)), out)
+    return out
+
+
+def is_on_lens(camera: Camera, lens: ArrayLike) -> Array:
+    points = f32(lens)
+    inside = empty(len(points), kind=np.int32)
+    call("probe_camera_is_on_lens", camera.made(), points, np.uint64(len(points)), inside)
+    return inside == 1
+
+
+def lens_area(camera: Camera) -> float:
+    """Over that of the unit disk."""
+    return float(call("probe_camera_lens_area", camera.made(), returns=ctypes.c_float))
 
 
 def is_seeing(camera: Camera, film: ArrayLike) -> Array:

@@ -81,6 +81,8 @@ BAD = [
     ),
     Bad(("camera", "focus_distance"), REMOVED, "camera: a lens_radius above 0 needs a focus_distance"),
     Bad(("camera", "lens_radius"), -1, "camera.lens_radius: -1 is not a number of 0 or more"),
+    Bad(("camera", "aperture", "blades"), -1, "camera.aperture.blades"),
+    Bad(("camera", "aperture", "ratio"), 0, "camera.aperture.ratio"),
     Bad(("camera", "clip"), [2, 1], "camera.clip: [2,1] is not [start, end] with start < end"),
     Bad(("camera", "shift"), 1, "camera.shift: 1 is not a list of 2"),
     Bad(
