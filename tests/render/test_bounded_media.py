@@ -260,6 +260,18 @@ def test_light_vertices_and_glass(what: str, integrator: str) -> None:
     check_same(lambda seed: blocks(shared(seed), 4), lambda seed: blocks(alone(seed), 4), within=0.05, what=what)
 
 
+def test_cloud_above_a_wide_plane(integrator: str) -> None:
+    """Most of what the plane throws into it comes from close by, whence few rays of a sun would come if they were aimed
+    at all of the plane: a quarter of the light was in spots too rare to be seen."""
+    if integrator != "path":
+        pytest.skip("it has no light vertices")
+    scene = Builder(camera((0, -7, 3), (0, 0, 2.5), 30), 12, 8)
+    scene.mesh(floor(0, 200), d.Lambert(grey(0.5))).lamp(d.SunLight("sun", (0.5, 0.4, -0.76), (3, 2.8, 2.4), 2))
+    made = scene.sphere((0, 0, 2.5), 1.5, d.Null(), interior=d.Medium(grey(0.02), (0.5, 0.6, 0.8), 0.3)).done()
+    shared, alone = (Pictures(Measurement(made, name, samples=4)) for name in ("path", "path-no-light-vertices"))
+    check_same(lambda seed: blocks(shared(seed), 4), lambda seed: blocks(alone(seed), 4), within=0.05)
+
+
 # ---- Robustness ----------------------------------------------------------------------------------------------------
 
 

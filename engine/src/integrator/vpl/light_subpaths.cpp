@@ -437,27 +437,54 @@ struct InfiniteStart {
     float body_power; ///< what its power would be, had all rays been aimed at the media
 };
 
-/// Half of the rays are aimed at the media alone, half at all that there is: surfaces beside the media light them, too.
-std::optional<InfiniteStart> start_from_infinity(const Scene &scene, const Light &light, ShutterTime time,
-                                                 Vec2f u_position, Vec2f u_direction, float u_choice) {
+/// Disks across light from infinity that its rays are aimed at, all equally often.
+struct AimedDisks {
+    struct Disk {
+        Vec3f center;
+        float radius;
+    };
+    std::vector<Disk> disks;
+
+    /// The media, all that there is, and between the two disks that grow by the same factor: surfaces beside the media
+    /// light them, too, the more the nearer they are. With the two alone, few rays meet the ground about a small cloud
+    /// on a wide plane, and those that are thrown from there into the cloud leave vertices of thousands of times the
+    /// power of the others, bright spots in it.
+    explicit AimedDisks(const Scene &scene) {
+        const BoundedMedia &media = *scene.medium->bounded();
+        const float all = scene.bounds_radius;
+        for (float radius = media.bounds_radius(); disks.empty() || (radius > 0 && radius < all / 2);
+             radius *= tuning::kDiskGrowth)
+            disks.push_back({media.bounds_center(), radius});
+        disks.push_back({scene.bounds_center, all});
+    }
+
+    /// Of all of them together, per area across the direction, at a point of the disk `own`.
+    float density(const Vec3f &x, const Vec3f &direction, size_t own) const {
+        float sum = 0;
+        for (size_t i = 0; i < disks.size(); ++i)
+            if (const auto &[center, radius] = disks[i]; i == own || length(cross(x - center, direction)) <= radius)
+                sum += 1 / (kPi * radius * radius);
+        return sum / float(disks.size());
+    }
+};
+
+std::optional<InfiniteStart> start_from_infinity(const Scene &scene, const AimedDisks &aimed, const Light &light,
+                                                 ShutterTime time, Vec2f u_position, Vec2f u_direction,
+                                                 float u_choice) {
     const BoundedMedia &media = *scene.medium->bounded();
     const auto from = sample_light(light, media.bounds_center(), u_direction);
     if (!from)
         return std::nullopt;
-    const std::array<Vec3f, 2> centers{media.bounds_center(), scene.bounds_center};
-    const std::array<float, 2> radii{media.bounds_radius(), scene.bounds_radius};
-    const size_t aim = u_choice < 0.5f ? 0 : 1;
+    const size_t count = aimed.disks.size();
+    const size_t aim = std::min(size_t(u_choice * float(count)), count - 1);
+    const auto &[center, radius] = aimed.disks[aim];
     const Vec2f p = sample_uniform_disk(u_position);
     const Frame frame(from->direction);
-    const Vec3f target = centers[aim] + (frame.x * p.x + frame.y * p.y) * radii[aim];
-    float density = 0; // per area across the ray
-    for (size_t k = 0; k < 2; ++k)
-        if (k == aim || length(cross(target - centers[k], from->direction)) <= radii[k])
-            density += 0.5f / (kPi * radii[k] * radii[k]);
+    const Vec3f target = center + (frame.x * p.x + frame.y * p.y) * radius;
     const Rgb irradiance = from->radiance * (1 / from->pdf);
     const Ray ray{target + from->direction * (2 * scene.bounds_radius), -from->direction, time};
-    return InfiniteStart{
-        {ray, irradiance * (1 / density)}, from->delta, max_component(irradiance) * kPi * radii[0] * radii[0]};
+    const float on_media = max_component(irradiance) * kPi * media.bounds_radius() * media.bounds_radius();
+    return InfiniteStart{{ray, irradiance * (1 / aimed.density(target, from->direction, aim))}, from->delta, on_media};
 }
 
 } // namespace
@@ -472,6 +499,9 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
     const std::vector<double> shares = start_shares(scene, importance);
     LightSubpath subpath(scene, importance, settings, sampler, rays, out);
     const StartRegion camera = scene.camera.start_region();
+    std::optional<AimedDisks> aimed;
+    if (scene.medium && scene.medium->bounded())
+        aimed.emplace(scene);
     // Systematic sampling with one random number: light i starts its share of the subpaths, to within one.
     double cursor = shares.empty() ? 0 : double(sampler.next_1d()), sum = 0;
     for (uint32_t i = 0; i < shares.size(); ++i) {
@@ -487,7 +517,8 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
         for (; cursor < sum && !rays.stopped(); cursor += 1) {
             const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
             if (b.infinite) {
-                auto start = start_from_infinity(scene, lights[i], time, u_position, u_direction, sampler.next_1d());
+                auto start =
+                    start_from_infinity(scene, *aimed, lights[i], time, u_position, u_direction, sampler.next_1d());
                 if (!start || is_black(start->emission.power))
                     continue;
                 const auto weight = float(1 / (shares[i] * settings.paths));
