@@ -36,6 +36,28 @@ def is_known(data_type: str) -> bool:
     return data_type in FIELDS and (data_type != "INT8" or bpy.app.version >= BYTES_FROM)
 
 
+def numbers(attribute: bpy.types.Attribute) -> Floats:
+    """(n, 1 to 4) float32, of an attribute of a kind in FIELDS."""
+    field, width = FIELDS[attribute.data_type]
+    kind = {"INT": np.int32, "INT8": np.int32, "BOOLEAN": np.bool_}.get(attribute.data_type, np.float32)
+    values: NDArray[Any] = np.empty(width * len(attribute.data), kind)
+    attribute.data.foreach_get(field, values)
+    return values.astype(np.float32, copy=False).reshape(-1, width)
+
+
+def colors(attribute: bpy.types.Attribute | None) -> NDArray[np.float32] | None:
+    """(n, 4), as Blender makes colours of an attribute; None for none, and of kinds which are no colours."""
+    if attribute is None or attribute.data_type not in FIELDS:
+        return None
+    values = numbers(attribute)
+    width = values.shape[1]
+    result = np.zeros((len(values), 4), np.float32)
+    result[:, : 3 if width == 1 else width] = values
+    if width < 4:
+        result[:, 3] = 1.0
+    return result
+
+
 class AttributeReader:
     """The attributes of a mesh whose triangles were made, by the names that programs have for them."""
 
@@ -118,15 +140,7 @@ class AttributeReader:
         """Of an attribute of any kind."""
         if attribute is None or not is_known(attribute.data_type) or attribute.domain not in DOMAINS:
             return None
-        field, width = FIELDS[attribute.data_type]
-        if attribute.data_type in ("INT", "INT8", "BOOLEAN"):
-            numbers = np.empty(len(attribute.data), bool if attribute.data_type == "BOOLEAN" else np.int32)
-            attribute.data.foreach_get(field, numbers)
-            values = numbers.astype(np.float32)[:, None]
-        else:
-            values = np.empty(width * len(attribute.data), np.float32)
-            attribute.data.foreach_get(field, values)
-            values = values.reshape(-1, width)
+        values = numbers(attribute)
         if attribute.domain == "EDGE":
             values = mean_at_vertices(values, self._edges(), len(self._mesh.vertices))
         if attribute.domain in ("POINT", "EDGE"):

@@ -35,7 +35,9 @@ BulkReader = Callable[
 class Record:
     """What Blender says of one instance."""
 
-    instancers: tuple[Any, ...]  # whose properties it has: the settings of its particles, its instancer and its data
+    particles: Any  # the settings of the particle system that it is of, or None
+    instancer: Any  # the original object, or None
+    numbers: tuple[int, ...]  # Blender's persistent_id
     generated: tuple[float, float, float]  # where it stands in its instancer's own coordinates
     uv: tuple[float, float]
     particle_index: int
@@ -44,11 +46,11 @@ class Record:
 
 def _record(instance: Any, frame: float) -> Record:
     parent, system = instance.parent, instance.particle_system
-    own: tuple[Any, ...] = () if parent is None else (parent.original, parent.original.data)
-    orco, uv = tuple(instance.orco), tuple(instance.uv)
+    owner = None if parent is None else parent.original
+    orco, uv, numbers = tuple(instance.orco), tuple(instance.uv), tuple(instance.persistent_id)
     if system is None:
-        return Record(own, orco, uv, 0, {})
-    index = instance.persistent_id[0]
+        return Record(None, owner, numbers, orco, uv, 0, {})
+    index = numbers[0]
     values: dict[str, tuple[float, ...]] = {}
     if 0 <= index < len(system.particles):
         particle = system.particles[index]
@@ -60,7 +62,7 @@ def _record(instance: Any, frame: float) -> Record:
             "Velocity": tuple(particle.velocity),
             "Angular Velocity": tuple(particle.angular_velocity),
         }
-    return Record((system.settings.original, *own), orco, uv, index, values)
+    return Record(system.settings.original, owner, numbers, orco, uv, index, values)
 
 
 @dataclass(eq=False)

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.description import Attribute
+from ..scene.problems import Notices, place
 from .attributes import texture_space
+from .geometry_instances import GeometryInstances, LostError
 from .instance import Placed, Record, hash_pair
 from .translate.surface import (
     INSTANCER_GENERATED,
@@ -27,13 +29,22 @@ if TYPE_CHECKING:
     import bpy
 
 Rgba = tuple[float, float, float, float]
+BLACK_AND_CLEAR = (0.0, 0.0, 0.0, 0.0)
 
 
-def instance_attributes(placed: Placed, names: frozenset[str]) -> tuple[Attribute, ...]:
-    """Those of `names` that instances have, a row for each matrix."""
+def instance_attributes(
+    placed: Placed, names: frozenset[str], made: GeometryInstances, notices: Notices
+) -> tuple[Attribute, ...]:
+    """Those of `names` that instances have, a row for each matrix. made: what geometry nodes gave them."""
     found = []
     for name in sorted(names):
-        rows = _bulk_rows(placed, name) if placed.bulk else _rows(placed, name)
+        if placed.bulk:
+            rows: Any = _bulk_rows(placed, name)
+        elif name.startswith(INSTANCER_PREFIX) and placed.records:
+            own = name[len(INSTANCER_PREFIX) :]
+            rows = [_of_instance(placed, record, own, made, notices) for record in placed.records]
+        else:
+            rows = _rows(placed, name)
         if rows is not None:
             found.append(Attribute(name, "instance", np.nan_to_num(np.asarray(rows, np.float32), copy=False)))
     return tuple(found)
@@ -58,14 +69,8 @@ def _bulk_rows(placed: Placed, name: str) -> NDArray[np.float32] | None:
 def _rows(placed: Placed, name: str) -> list[tuple[float, ...]] | None:
     count = len(placed.all_matrices())
     records: list[Record | None] = [*placed.records] or [None] * count
-    if name.startswith(OBJECT_PREFIX):
-        return [property_of((placed.item, placed.item.data), name[len(OBJECT_PREFIX) :])] * count
-    if name.startswith(INSTANCER_PREFIX):
-        own = name[len(INSTANCER_PREFIX) :]
-        return [
-            property_of((*(() if record is None else record.instancers), placed.item, placed.item.data), own)
-            for record in records
-        ]
+    if name.startswith((OBJECT_PREFIX, INSTANCER_PREFIX)):
+        return [property_of((placed.item, placed.item.data), name.partition(":")[2])] * count
     if name.startswith(PARTICLE_PREFIX):
         return [particle_value(record, name[len(PARTICLE_PREFIX) :]) for record in records]
     if name == INSTANCER_GENERATED:
@@ -76,6 +81,22 @@ def _rows(placed: Placed, name: str) -> list[tuple[float, ...]] | None:
         scale, offset = texture_space(placed.item.data)
         return [tuple(scale if name == VOLUME_SCALE else offset)] * count
     return None
+
+
+def _of_instance(placed: Placed, record: Record, name: str, made: GeometryInstances, notices: Notices) -> Rgba:
+    """What comes first in Cycles: the settings of particles, geometry nodes, the instancer, the object."""
+    own = _property_among((record.particles,), name)
+    if own is not None:
+        return own
+    try:
+        color = None if record.instancer is None else made.color(record.instancer, record.numbers, name)
+        if color is not None:
+            return color
+    except LostError as why:
+        what = f"its material asks for '{name}', which geometry nodes may give instances, but {why}"
+        notices.add(place(placed.name), f"{what}; it is that of the objects, or 0")
+    data = None if record.instancer is None else record.instancer.data
+    return property_of((record.instancer, data, placed.item, placed.item.data), name)
 
 
 def particle_value(record: Record | None, what: str) -> tuple[float, ...]:
@@ -92,13 +113,16 @@ def particle_value(record: Record | None, what: str) -> tuple[float, ...]:
 
 def property_of(owners: tuple[Any, ...], name: str) -> Rgba:
     """The first of the owners' custom properties, or values by their path, of this name; black and clear for none."""
+    found = _property_among(owners, name)
+    return BLACK_AND_CLEAR if found is None else found
+
+
+def _property_among(owners: tuple[Any, ...], name: str) -> Rgba | None:
     for owner in owners:
-        if owner is None:
-            continue
-        found = _rgba(_property(owner, name))
+        found = None if owner is None else _rgba(_property(owner, name))
         if found is not None:
             return found
-    return (0.0, 0.0, 0.0, 0.0)
+    return None
 
 
 def _property(owner: bpy.types.ID, name: str) -> Any:

@@ -35,6 +35,7 @@ from ..scene.description import (
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
 from .dense import warn_of_dense_haze
+from .geometry_instances import GeometryInstances
 from .grids import NO_READER, NoGridsError, box_of, openvdb, read_grids
 from .groups import with_groups
 from .instance import SHOWN_BY_OTHERS, BulkReader, Placed, dimensions_left, placed_objects, placed_once
@@ -299,6 +300,7 @@ class _Collector:
         scene = depsgraph.scene_eval
         owners = (depsgraph.view_layer_eval, scene, scene.world)
         self.images = Images(scene.frame_current, lambda name: property_of(owners, name), kept)
+        self._made = GeometryInstances(depsgraph)
         self._meshes: dict[tuple[int, int, frozenset[str]], Mesh | None] = {}
         self._null: int | None = None
 
@@ -373,7 +375,7 @@ class _Collector:
     def _add_object(self, placed: Placed, places: Places, mesh: Mesh, materials: tuple[int, ...]) -> None:
         """Those whose scale is 0 along an axis are meshes of their own: the engine's instances have an inverse."""
         matrices, dimensions, randoms = places.matrices, places.ranks, places.randoms
-        attributes = instance_attributes(placed, self._attributes(materials))
+        attributes = instance_attributes(placed, self._attributes(materials), self._made, self._notices)
         solid, flat = dimensions == 3, dimensions == 2
         if flat.any():
             self._notices.add(

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..export.attributes import colors
 from ..export.kept import Kept
 from . import node_group
 from .field import prototypes
@@ -85,28 +86,10 @@ def _attribute_of_some(mesh: Any, part: NDArray[Any]) -> Callable[[str], NDArray
     return attribute
 
 
-# How Blender makes a colour of an attribute: of its member, that many numbers.
-_MEMBERS = {
-    "FLOAT": ("value", 1),
-    "INT": ("value", 1),
-    "BOOLEAN": ("value", 1),
-    "FLOAT_VECTOR": ("vector", 3),
-    "FLOAT_COLOR": ("color", 4),
-}
-
-
 def read_attribute(mesh: Any, name: str) -> NDArray[np.float32] | None:
     """(n, 4): an attribute of the points, as a colour; instances take it over."""
     attribute = mesh.attributes.get(name)
-    if attribute is None or attribute.domain != "POINT" or attribute.data_type not in _MEMBERS:
-        return None
-    member, width = _MEMBERS[attribute.data_type]
-    n = len(attribute.data)
-    raw = np.empty(width * n, {"INT": np.int32, "BOOLEAN": bool}.get(attribute.data_type, np.float32))
-    attribute.data.foreach_get(member, raw)
-    values = np.ones((n, 4), np.float32)
-    values[:, : max(width, 3)] = raw.reshape(n, width)
-    return values
+    return None if attribute is None or attribute.domain != "POINT" else colors(attribute)
 
 
 @dataclasses.dataclass(frozen=True)

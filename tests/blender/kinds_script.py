@@ -356,6 +356,115 @@ def camera_of_a_marker() -> None:
     inside.ball("Ball", material())
 
 
+# ---- Attributes that geometry nodes give instances ---------------------------------------------------------------
+
+
+class Made:
+    """Geometry nodes of an object."""
+
+    def __init__(self, item: Any) -> None:
+        self.tree = bpy.data.node_groups.new("Made", "GeometryNodeTree")
+        if hasattr(self.tree, "interface"):
+            self.tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+        else:
+            self.tree.outputs.new("NodeSocketGeometry", "Geometry")
+        item.modifiers.new("Made", "NODES").node_group = self.tree
+
+    def node(self, kind: str, inputs: dict[str, Any] | None = None, **settings: Any) -> Any:
+        """Its first output that is shown. Inputs by name: values, or sockets to link."""
+        node = self.tree.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(node, name, value)
+        for name, value in (inputs or {}).items():
+            socket = next(socket for socket in node.inputs if socket.name == name and socket.enabled)
+            if isinstance(value, bpy.types.NodeSocket):
+                self.tree.links.new(value, socket)
+            else:
+                socket.default_value = value
+        return next(socket for socket in node.outputs if socket.enabled)
+
+    def cubes(self, shader: Any, size: float) -> Any:
+        mesh = self.node("GeometryNodeMeshCube", {"Size": (size,) * 3})
+        return self.node("GeometryNodeSetMaterial", {"Geometry": mesh, "Material": shader})
+
+    def spread(self, instance: Any, count: int, size: float, kind: str = "FLOAT_VECTOR", name: str = "tint") -> Any:
+        """Instances in a square, each with a value of its own, and with ids that are not their order."""
+        square = {"Size X": size, "Size Y": size, "Vertices X": count, "Vertices Y": count}
+        points, index = self.node("GeometryNodeMeshGrid", square), self.node("GeometryNodeInputIndex")
+        step = self.node("ShaderNodeMath", operation="MULTIPLY_ADD")
+        step.node.inputs[1].default_value, step.node.inputs[2].default_value = -7.0, 300.0
+        self.tree.links.new(index, step.node.inputs[0])
+        points = self.node("GeometryNodeSetID", {"Geometry": points, "ID": step})
+        instances = self.node("GeometryNodeInstanceOnPoints", {"Points": points, "Instance": instance})
+        color = kind == "FLOAT_VECTOR"
+        span = {"Min": (0.1,) * 3, "Max": (1.0,) * 3} if color else {"Min": 1, "Max": 3}
+        value = self.node("FunctionNodeRandomValue", span, data_type=kind)
+        settings = {"Geometry": instances, "Name": name, "Value": value}
+        return self.node("GeometryNodeStoreNamedAttribute", settings, data_type=kind, domain="INSTANCE")
+
+    def show(self, geometry: Any) -> None:
+        self.tree.links.new(geometry, self.tree.nodes.new("NodeGroupOutput").inputs[0])
+
+
+def of_instance() -> Any:
+    """A material that shines with it."""
+    return shown(lambda tree: make(tree, "ShaderNodeAttribute", attribute_name="tint", attribute_type="INSTANCER"))
+
+
+def points(name: str, location: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([(0.0, 0.0, 0.0)], [], [])
+    return inside.add_mesh(name, mesh, None, location)
+
+
+def in_collection(name: str, *items: Any) -> Any:
+    collection = bpy.data.collections.new(name)
+    for item in items:
+        bpy.context.scene.collection.objects.unlink(item)
+        collection.objects.link(item)
+    return collection
+
+
+@case
+def made_instances() -> None:
+    """Instances within instances: the inner value counts, and that of an object's own property does not."""
+    item = points("Points")
+    item["tint"] = 0.3
+    made, shader = Made(item), of_instance()
+    outer = made.spread(made.spread(made.cubes(shader, 0.3), 2, 0.6, "INT"), 3, 3.0)
+    plain = made.spread(made.cubes(shader, 0.8), 2, 4.5)
+    made.show(made.node("GeometryNodeJoinGeometry", {"Geometry": plain}))
+    made.tree.links.new(outer, made.tree.nodes["Join Geometry"].inputs[0])
+
+
+@case
+def made_by_a_curve() -> None:
+    """It shows a mesh beside its instances."""
+    curve = bpy.data.objects.new("Curve", bpy.data.curves.new("Curve", "CURVE"))
+    bpy.context.scene.collection.objects.link(curve)
+    made = Made(curve)
+    made.show(made.node("GeometryNodeJoinGeometry", {"Geometry": made.spread(made.cubes(of_instance(), 0.7), 3, 4.0)}))
+    made.tree.links.new(made.cubes(material(), 1.0), made.tree.nodes["Join Geometry"].inputs[0])
+
+
+@case
+def made_within_collections() -> None:
+    """An empty shows an object that scatters a collection of objects that scatter; one is hidden."""
+    inner = [points(name) for name in ("Hidden", "Left", "Right")]
+    for number, item in enumerate(inner):
+        item.hide_render, item.location.x = number == 0, 0.9 * number
+        made = Made(item)
+        made.show(made.spread(made.cubes(of_instance(), 0.3), 2, 0.5))
+    outer = points("Outer")
+    made = Made(outer)
+    source = made.node("GeometryNodeCollectionInfo", {"Collection": in_collection("Inner", *inner)})
+    made.show(made.spread(source, 2, 3.0, name="other"))
+    empty = bpy.data.objects.new("Empty", None)
+    bpy.context.scene.collection.objects.link(empty)
+    empty.instance_type, empty.instance_collection = "COLLECTION", in_collection("Outer", outer)
+    empty.location = (-0.5, 0.0, 0.5)
+
+
 # ---- Renders -----------------------------------------------------------------------------------------------------
 
 

@@ -34,6 +34,8 @@ a lamp of the mean of its disc, and the camera sees the disc itself.
 Light Path: *Is Camera Ray* and *Is Shadow Ray* are exact. Light that is sampled, and light vertices, cannot know the
 rest: they are asked for as by a diffuse ray of depth 1. The depths of single kinds of rays are 0, and both are told.
 
+Attribute of type *Instancer*: what geometry nodes give instances is read from Blender 5.0 on, and told before.
+
 | node | 3.4 | newest |
 |---|---|---|
 """
