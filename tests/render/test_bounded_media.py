@@ -9,7 +9,20 @@ import pytest
 from addon.scene import description as d
 from tests.engine.library import Render, Scene
 from tests.render import closed_forms as exact
-from tests.render.build import BLACK, WHITE, Builder, box, camera, floor, grey, octahedron, quad, radiometer, sky
+from tests.render.build import (
+    BLACK,
+    WHITE,
+    Builder,
+    box,
+    camera,
+    floor,
+    grey,
+    look_at,
+    octahedron,
+    quad,
+    radiometer,
+    sky,
+)
 from tests.render.statistics import (
     INTEGRATORS,
     ROUNDING,
@@ -260,16 +273,47 @@ def test_light_vertices_and_glass(what: str, integrator: str) -> None:
     check_same(lambda seed: blocks(shared(seed), 4), lambda seed: blocks(alone(seed), 4), within=0.05, what=what)
 
 
-def test_cloud_above_a_wide_plane(integrator: str) -> None:
-    """Most of what the plane throws into it comes from close by, whence few rays of a sun would come if they were aimed
-    at all of the plane: a quarter of the light was in spots too rare to be seen."""
+CLOUD = np.array([0.0, 0.0, 2.5])
+AFAR = 40.0 * np.array([[0.5, -0.4, 0.768], [-0.6, -0.3, 0.742], [0.1, 0.6, 0.794]])
+RED, GREEN, BLUE = (np.array([[1, 0.01, 0.01], [0.01, 1, 0.01], [0.01, 0.01, 1]]) * 3).tolist()
+
+
+def intensity(irradiance: list[float], area: float = 1.0) -> Any:
+    """Of a lamp at AFAR; with an area its radiance."""
+    return tuple(1600.0 / area * x for x in irradiance)
+
+
+def shine_afar(scene: Builder, lights: str) -> None:
+    """Lights of a kind each, in red, green and blue, that a small cloud sees from far away."""
+    red, green, blue = (tuple(center) for center in CLOUD + AFAR)
+    if lights == "sun":
+        scene.lamp(d.SunLight("sun", (0.5, 0.4, -0.76), (3, 2.8, 2.4), 2))
+    if lights == "points":
+        scene.lamp(d.PointLight("point", red, intensity(RED)))
+        scene.lamp(d.PointLight("disk", green, intensity(GREEN), 4, is_disk=True))
+        scene.lamp(d.PointLight("sphere", blue, intensity(BLUE), 4))
+    if lights == "surfaces":
+        scene.sphere(red, 3, d.Light(intensity(RED, 9 * np.pi)))
+        scene.mesh(quad(green, (5, 1, 0), (-1, 5, 1)), d.Light(intensity(GREEN, 24)))
+        scene.lamp(d.AreaLight("area", look_at(blue, CLOUD), (4, 6), intensity(BLUE, 24), spread=70))
+    if lights == "spots":
+        scene.lamp(d.SpotLight("at it", red, tuple(-AFAR[0]), intensity(RED), 20, 0.5))
+        scene.lamp(d.SpotLight("beside it", green, tuple(-AFAR[1] + 7), intensity(GREEN), 16, 0.5, 1))
+        scene.lamp(d.AreaLight("ellipse", look_at(blue, CLOUD), (4, 6), intensity(BLUE, 19), ellipse=True))
+
+
+@pytest.mark.parametrize("lights", ["sun", "points", "surfaces", "spots"])
+def test_cloud_above_a_wide_plane(lights: str, integrator: str) -> None:
+    """Few light subpaths that start as the light shines meet it, or the ground close to it: a quarter of its light was
+    in bright spots too rare to be seen."""
     if integrator != "path":
         pytest.skip("it has no light vertices")
-    scene = Builder(camera((0, -7, 3), (0, 0, 2.5), 30), 12, 8)
-    scene.mesh(floor(0, 200), d.Lambert(grey(0.5))).lamp(d.SunLight("sun", (0.5, 0.4, -0.76), (3, 2.8, 2.4), 2))
-    made = scene.sphere((0, 0, 2.5), 1.5, d.Null(), interior=d.Medium(grey(0.02), (0.5, 0.6, 0.8), 0.3)).done()
+    scene = Builder(camera((0, -7, 3), tuple(CLOUD), 30), 12, 8)
+    scene.mesh(floor(0, 200), d.Lambert(grey(0.5)))
+    shine_afar(scene, lights)
+    made = scene.sphere(CLOUD, 1.5, d.Null(), interior=d.Medium(grey(0.02), (0.5, 0.6, 0.8), 0.3)).done()
     shared, alone = (Pictures(Measurement(made, name, samples=4)) for name in ("path", "path-no-light-vertices"))
-    check_same(lambda seed: blocks(shared(seed), 4), lambda seed: blocks(alone(seed), 4), within=0.05)
+    check_same(lambda seed: blocks(shared(seed), 4), lambda seed: blocks(alone(seed), 4), within=0.05, what=lights)
 
 
 # ---- Robustness ----------------------------------------------------------------------------------------------------

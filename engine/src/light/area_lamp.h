@@ -77,7 +77,7 @@ inline std::optional<LampHit> intersect(const AreaLamp &light, const Ray &ray) {
     return LampHit{float(t), light.radiance * light.spread(-cosine)};
 }
 
-inline Emission emit(const AreaLamp &light, bool, Vec2f u_position, Vec2f u_direction, float) {
+inline Emission emit(const AreaLamp &light, bool, Vec2f u_position, const EmissionDirection &to, float) {
     double x = 2 * double(u_position.x) - 1, y = 2 * double(u_position.y) - 1;
     double area = 4 * length(light.half_x) * length(light.half_y);
     if (light.ellipse) {
@@ -86,11 +86,13 @@ inline Emission emit(const AreaLamp &light, bool, Vec2f u_position, Vec2f u_dire
         area *= kPiDouble / 4;
     }
     const Vec3f position(light.center + light.half_x * x + light.half_y * y);
-    if (light.tan_spread == 0)
-        return emit_from_surface(position, Vec3f(light.normal), 0, light.radiance, area, u_direction);
+    if (light.tan_spread == 0 || to.is_given())
+        return emit_from_surface(position, Vec3f(light.normal), 0, area, to, [&](const Vec3f &direction) {
+            return light.radiance * light.spread(dot(Vec3d(direction), light.normal));
+        });
     // Cosine-distributed within the spread.
     const double sine2 = light.tan_spread * light.tan_spread / (1 + light.tan_spread * light.tan_spread);
-    const double sine = std::sqrt(double(u_direction.x) * sine2), phi = 2 * kPiDouble * double(u_direction.y);
+    const double sine = std::sqrt(double(to.u.x) * sine2), phi = 2 * kPiDouble * double(to.u.y);
     const double cosine = std::sqrt(1 - sine * sine);
     const Vec3d direction = about_axis(light.normal, sine * std::cos(phi), sine * std::sin(phi), cosine);
     return {{position, Vec3f(direction), {}},

@@ -7,6 +7,7 @@
 // the lamp begins there. What stands between that nearest point and the receiver hides the light.
 #pragma once
 
+#include "light/emission.h"
 #include "light/interface.h"
 #include "light/shapes/direction_sample.h"
 #include "light/shapes/sphere.h"
@@ -65,11 +66,8 @@ inline std::optional<LampHit> intersect(const DiskLamp &light, const Ray &ray) {
     return LampHit{float(nearest), light.radiance * factor};
 }
 
-inline Emission emit(const DiskLamp &light, bool, Vec2f u_position, Vec2f u_direction, float) {
-    const float one_minus_cos = light.cone ? 1 - light.cone->cos_half : 2.0f;
-    const Vec3f direction =
-        light.cone ? normalize(Frame(light.cone->direction).to_world(sample_uniform_cone(one_minus_cos, u_direction)))
-                   : sample_uniform_sphere(u_direction);
+inline Emission emit(const DiskLamp &light, bool, Vec2f u_position, const EmissionDirection &to, float) {
+    const auto [direction, weight] = emission_direction(light.cone, to);
     const Vec2f on = sample_uniform_disk(u_position);
     const double r = light.radius, side_x = double(on.x) * r, side_y = double(on.y) * r;
     const double h2 = side_x * side_x + side_y * side_y, dark = h2 / std::sqrt(r * r - h2);
@@ -77,9 +75,7 @@ inline Emission emit(const DiskLamp &light, bool, Vec2f u_position, Vec2f u_dire
         return {};
     const Vec3d axis(direction), nearest = light.center + about_axis(axis, side_x, side_y, 0);
     const double area = kPiDouble * r * r;
-    return {{Vec3f(nearest + axis * dark), direction, {}},
-            light.radiance * (falloff(light.cone, direction) * float(area * 2 * kPiDouble) * one_minus_cos),
-            float(dark)};
+    return {{Vec3f(nearest + axis * dark), direction, {}}, light.radiance * (weight * float(area)), float(dark)};
 }
 
 inline LightBound bound(const DiskLamp &light) {

@@ -6,7 +6,7 @@
 //   pdf(light, x, direction, LightHit)                     its density; unless `delta`
 //   intersect(light, ray)                                  if `intersectable`
 //   radiance_at_infinity(light, direction, RayFlags)       if `infinite`
-//   emit(light, inwards, u_position, u_direction, u_choice) unless `infinite`
+//   emit(light, inwards, u_position, EmissionDirection, u_choice) unless `infinite`
 //   bound(light)                                           a sphere around it and its strength
 //
 // light.h lists the kinds and checks each against this page: one that lacks a function does not compile.
@@ -72,6 +72,15 @@ struct Emission {
     Rgb power;
     float dark = 0; ///< length before the ray's beginning in which the light is hidden and absorbed, but not scattered
     uint8_t group = 0; ///< of a shining mesh: LightFlags::group
+};
+
+/// Which way light subpaths leave a light.
+struct EmissionDirection {
+    Vec2f u; ///< by which the light draws a direction, unless it is given
+    Vec3f direction = {};
+    float pdf = 0; ///< per solid angle, of `direction`, the same at all points of the light; 0: it is not given
+
+    bool is_given() const { return pdf > 0; }
 };
 
 /// A sphere around the light and about what it shines with: intensity for a finite light, irradiance for the sun and

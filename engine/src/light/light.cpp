@@ -44,14 +44,14 @@ LightBound bound_light(const Light &light) {
     return std::visit([](const auto &l) { return bound(l); }, light);
 }
 
-std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, Vec2f u_direction,
+std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, const EmissionDirection &to,
                                         float u_choice) {
     return std::visit(
         [&](const auto &l) -> std::optional<Emission> {
             if constexpr (std::decay_t<decltype(l)>::traits.infinite)
                 return std::nullopt;
             else
-                return emit(l, inwards, u_position, u_direction, u_choice);
+                return emit(l, inwards, u_position, to, u_choice);
         },
         light);
 }

@@ -38,7 +38,7 @@ concept LightKind = requires(const L &light, const Vec3f &v, Vec2f u, const Ligh
         { radiance_at_infinity(light, v, uint8_t{}) } -> std::same_as<Rgb>;
     };
     requires L::traits.infinite || requires {
-        { emit(light, false, u, u, 0.0f) } -> std::same_as<Emission>;
+        { emit(light, false, u, EmissionDirection{u}, 0.0f) } -> std::same_as<Emission>;
     };
     // Rays meet a light in one way, or not at all.
     requires int(L::traits.delta) + L::traits.infinite + L::traits.in_bvh + L::traits.intersectable == 1;
@@ -82,7 +82,7 @@ LightBound bound_light(const Light &light);
 
 /// For finite lights; nothing for the sun and the environment. `inwards`: the light is a sphere around all that is to
 /// be seen.
-std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, Vec2f u_direction,
+std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, const EmissionDirection &to,
                                         float u_choice);
 
 } // namespace glimmer

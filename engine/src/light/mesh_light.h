@@ -75,7 +75,7 @@ inline float pdf(const MeshLight &light, const Vec3f &, const Vec3f &, const Lig
 }
 
 /// To both sides of the triangles.
-inline Emission emit(const MeshLight &light, bool, Vec2f u_position, Vec2f u_direction, float u_choice) {
+inline Emission emit(const MeshLight &light, bool, Vec2f u_position, const EmissionDirection &to, float u_choice) {
     const AliasSample choice = light.choice.sample(u_choice);
     const MeshLight::Triangle &t = light.triangles[choice.index];
     const Barycentrics w = sample_triangle_barycentrics(u_position);
@@ -83,9 +83,9 @@ inline Emission emit(const MeshLight &light, bool, Vec2f u_position, Vec2f u_dir
     const Vec3d scaled = cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
     const double twice_area = length(scaled);
     const Vec3f normal = Vec3f(scaled / twice_area) * (choice.rest < 0.5f ? 1.0f : -1.0f);
-    Emission e = emit_from_surface(position, normal, t.error, t.radiance, twice_area, u_direction);
-    if (!light.places.empty())
-        e.power = light.radiance_at(choice.index, {w.b1, w.b2}, e.ray.direction) * float(kPiDouble * twice_area);
+    Emission e = emit_from_surface(position, normal, t.error, twice_area, to, [&](const Vec3f &direction) {
+        return light.places.empty() ? t.radiance : light.radiance_at(choice.index, {w.b1, w.b2}, direction);
+    });
     e.power *= 1 / choice.pmf;
     e.group = t.group;
     return e;

@@ -2,6 +2,7 @@
 // A lamp without size, or a spot of that kind.
 #pragma once
 
+#include "light/emission.h"
 #include "light/interface.h"
 #include "light/spot_cone.h"
 #include "sampling/warp.h"
@@ -28,14 +29,9 @@ inline std::optional<LightSample> sample(const PointLamp &light, const Vec3f &x,
     return LightSample{direction, distance, light.intensity * (factor / distance / distance), 1, true};
 }
 
-inline Emission emit(const PointLamp &light, bool, Vec2f, Vec2f u_direction, float) {
-    if (!light.cone)
-        return {{light.position, sample_uniform_sphere(u_direction), {}}, light.intensity * (4 * kPi)};
-    const float one_minus_cos = 1 - light.cone->cos_half;
-    const Vec3f direction =
-        normalize(Frame(light.cone->direction).to_world(sample_uniform_cone(one_minus_cos, u_direction)));
-    return {{light.position, direction, {}},
-            light.intensity * (light.cone->falloff(direction) * 2 * kPi * one_minus_cos)};
+inline Emission emit(const PointLamp &light, bool, Vec2f, const EmissionDirection &to, float) {
+    const auto [direction, weight] = emission_direction(light.cone, to);
+    return {{light.position, direction, {}}, light.intensity * weight};
 }
 
 inline LightBound bound(const PointLamp &light) {

@@ -47,13 +47,13 @@ inline std::optional<LampHit> intersect(const SphereLamp &light, const Ray &ray)
 }
 
 /// Seen from without it is its near side, from within its far side: half the rays go in and end where they come out.
-inline Emission emit(const SphereLamp &light, bool, Vec2f u_position, Vec2f u_direction, float u_choice) {
+inline Emission emit(const SphereLamp &light, bool, Vec2f u_position, const EmissionDirection &to, float u_choice) {
     const bool in = u_choice < 0.5f;
     const Vec3f normal = sample_uniform_sphere(u_position) * (in ? -1.0f : 1.0f);
     const double r = light.sphere.radius;
     const Vec3f position(light.sphere.center + Vec3d(normal) * (in ? -r : r));
-    Emission e = emit_from_surface(position, normal, kSampledPointRounding * max_abs(position), light.radiance,
-                                   8 * kPiDouble * r * r, u_direction);
+    Emission e = emit_from_surface(position, normal, kSampledPointRounding * max_abs(position), 8 * kPiDouble * r * r,
+                                   to, [&](const Vec3f &) { return light.radiance; });
     if (in)
         e.ray.t_max = float(2 * r) * dot(e.ray.direction, normal);
     if (light.cone)

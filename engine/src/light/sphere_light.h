@@ -38,15 +38,13 @@ inline float pdf(const SphereLight &light, const Vec3f &x, const Vec3f &, const 
     return pdf_sphere(light.sphere.center - Vec3d(x), light.sphere.radius);
 }
 
-inline Emission emit(const SphereLight &light, bool inwards, Vec2f u_position, Vec2f u_direction, float) {
+inline Emission emit(const SphereLight &light, bool inwards, Vec2f u_position, const EmissionDirection &to, float) {
     const Vec3f normal = sample_uniform_sphere(u_position);
     const double r = light.sphere.radius;
     const Vec3f position(light.sphere.center + Vec3d(normal) * r);
-    Emission e = emit_from_surface(position, inwards ? -normal : normal, kSampledPointRounding * max_abs(position),
-                                   light.radiance, 4 * kPiDouble * r * r, u_direction);
-    if (light.varying)
-        e.power = light.radiance_at(normal, e.ray.direction) * float(4 * kPiDouble * kPiDouble * r * r);
-    return e;
+    return emit_from_surface(position, inwards ? -normal : normal, kSampledPointRounding * max_abs(position),
+                             4 * kPiDouble * r * r, to,
+                             [&](const Vec3f &direction) { return light.radiance_at(normal, direction); });
 }
 
 inline LightBound bound(const SphereLight &light) {

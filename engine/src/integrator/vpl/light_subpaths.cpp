@@ -9,6 +9,7 @@
 #include "integrator/visibility.h"
 #include "integrator/vpl/bounded_fraction.h"
 #include "integrator/vpl/connection.h"
+#include "integrator/vpl/subpath_starts.h"
 #include "integrator/vpl/tuning.h"
 #include "light/light.h"
 #include "medium/phase.h"
@@ -21,9 +22,6 @@ namespace glimmer {
 
 namespace {
 
-// All kinds but the camera's see the same wherever there is a cache.
-constexpr RayKind kSubpathKind = RayKind::diffuse;
-
 /// One light subpath. It carries flux, so refraction scales nothing. Light from a point light that has met only mirrors
 /// and dielectrics is left out: no camera path can meet it, so nothing would compensate what bounded connections take
 /// away of it.
@@ -33,10 +31,10 @@ class LightSubpath {
                  TraceContext &rays, LightVertices &out)
         : scene_(scene), importance_(importance), settings_(settings), sampler_(sampler), rays_(rays), out_(out) {}
 
-    void trace(const Emission &start, bool from_delta, const InteriorStack &around, float target, uint8_t group) {
-        target_ = target;
-        group_ = group;
-        branches_.push_back({start.ray, start.power, around, from_delta});
+    void trace(const SubpathStart &start) {
+        target_ = start.target;
+        group_ = start.emission.group;
+        branches_.push_back({start.emission.ray, start.emission.power, start.around, start.delta});
         WalkGuard guard(rays_);
         while (!branches_.empty() && guard.goes_on()) {
             const Branch next = branches_.back();
@@ -395,98 +393,6 @@ class LightSubpath {
     uint8_t group_ = 0; ///< LightFlags::group of the subpath's light
 };
 
-/// The share of the subpaths that start at each light: by its power times the importance of its place, in a defensive
-/// mixture with the uniform distribution. Light from infinity counts by what of it enters the bounded media. 0 for it
-/// where there are none; empty where no subpath can start.
-std::vector<double> start_shares(const Scene &scene, const ImportanceMap &importance) {
-    const LightSet &lights = scene.lights;
-    const BoundedMedia *bounded = scene.medium ? scene.medium->bounded() : nullptr;
-    std::vector<double> shares(lights.size());
-    double total = 0;
-    uint32_t started = 0;
-    for (uint32_t i = 0; i < lights.size(); ++i) {
-        const LightBound &b = lights.bound(i);
-        if (b.infinite && !bounded)
-            continue;
-        const double radius = b.infinite ? double(bounded->bounds_radius()) : 0; // E pi R^2 is the power 4 pi I
-        const double intensity = b.infinite ? double(b.strength) * radius * radius / 4 : double(b.strength);
-        total += shares[i] = intensity * double(importance(b.infinite ? bounded->bounds_center() : b.center));
-        ++started;
-    }
-    if (!started)
-        return {};
-    const double by_importance = double(tuning::kStartsByImportance);
-    const double uniform = double(1 - tuning::kStartsByImportance);
-    for (uint32_t i = 0; i < lights.size(); ++i)
-        if (!lights.bound(i).infinite || bounded)
-            shares[i] = total > 0 ? by_importance * shares[i] / total + uniform / started : 1.0 / started;
-    return shares;
-}
-
-/// What is left of a start's light behind the length in which no vertex may stand.
-Rgb passes_dark(const Scene &scene, const Emission &start, TraceContext &rays) {
-    const Vec3f &direction = start.ray.direction;
-    const Ray dark{start.ray.origin - direction * start.dark, direction, start.ray.time, start.dark};
-    return visibility(scene, dark, kSubpathKind, rays) * transmittance(scene.outside(), dark, start.dark);
-}
-
-/// A ray of light from infinitely far.
-struct InfiniteStart {
-    Emission emission;
-    bool delta;
-    float body_power; ///< what its power would be, had all rays been aimed at the media
-};
-
-/// Disks across light from infinity that its rays are aimed at, all equally often.
-struct AimedDisks {
-    struct Disk {
-        Vec3f center;
-        float radius;
-    };
-    std::vector<Disk> disks;
-
-    /// The media, all that there is, and between the two disks that grow by the same factor: surfaces beside the media
-    /// light them, too, the more the nearer they are. With the two alone, few rays meet the ground about a small cloud
-    /// on a wide plane, and those that are thrown from there into the cloud leave vertices of thousands of times the
-    /// power of the others, bright spots in it.
-    explicit AimedDisks(const Scene &scene) {
-        const BoundedMedia &media = *scene.medium->bounded();
-        const float all = scene.bounds_radius;
-        for (float radius = media.bounds_radius(); disks.empty() || (radius > 0 && radius < all / 2);
-             radius *= tuning::kDiskGrowth)
-            disks.push_back({media.bounds_center(), radius});
-        disks.push_back({scene.bounds_center, all});
-    }
-
-    /// Of all of them together, per area across the direction, at a point of the disk `own`.
-    float density(const Vec3f &x, const Vec3f &direction, size_t own) const {
-        float sum = 0;
-        for (size_t i = 0; i < disks.size(); ++i)
-            if (const auto &[center, radius] = disks[i]; i == own || length(cross(x - center, direction)) <= radius)
-                sum += 1 / (kPi * radius * radius);
-        return sum / float(disks.size());
-    }
-};
-
-std::optional<InfiniteStart> start_from_infinity(const Scene &scene, const AimedDisks &aimed, const Light &light,
-                                                 ShutterTime time, Vec2f u_position, Vec2f u_direction,
-                                                 float u_choice) {
-    const BoundedMedia &media = *scene.medium->bounded();
-    const auto from = sample_light(light, media.bounds_center(), u_direction);
-    if (!from)
-        return std::nullopt;
-    const size_t count = aimed.disks.size();
-    const size_t aim = std::min(size_t(u_choice * float(count)), count - 1);
-    const auto &[center, radius] = aimed.disks[aim];
-    const Vec2f p = sample_uniform_disk(u_position);
-    const Frame frame(from->direction);
-    const Vec3f target = center + (frame.x * p.x + frame.y * p.y) * radius;
-    const Rgb irradiance = from->radiance * (1 / from->pdf);
-    const Ray ray{target + from->direction * (2 * scene.bounds_radius), -from->direction, time};
-    const float on_media = max_component(irradiance) * kPi * media.bounds_radius() * media.bounds_radius();
-    return InfiniteStart{{ray, irradiance * (1 / aimed.density(target, from->direction, aim))}, from->delta, on_media};
-}
-
 } // namespace
 
 LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings,
@@ -495,50 +401,15 @@ LightVertices trace_light_subpaths(const Scene &scene, const ImportanceMap &impo
     out.medium.directed = scene.medium && scene.medium->phase().g != 0;
     out.medium.counted = !(settings.limits == DepthLimits{});
     out.medium.grouped = settings.grouped;
-    const LightSet &lights = scene.lights;
-    const std::vector<double> shares = start_shares(scene, importance);
+    const SubpathStarts starts(scene, importance, settings.paths);
     LightSubpath subpath(scene, importance, settings, sampler, rays, out);
-    const StartRegion camera = scene.camera.start_region();
-    std::optional<AimedDisks> aimed;
-    if (scene.medium && scene.medium->bounded())
-        aimed.emplace(scene);
     // Systematic sampling with one random number: light i starts its share of the subpaths, to within one.
-    double cursor = shares.empty() ? 0 : double(sampler.next_1d()), sum = 0;
-    for (uint32_t i = 0; i < shares.size(); ++i) {
-        sum += shares[i] * settings.paths;
-        const LightBound &b = lights.bound(i);
-        const uint8_t group = lights.flags(i).group;
-        // A sphere shines towards the side that the camera is on; towards both where camera rays may start on both, and
-        // where what shines inwards comes out again.
-        const auto *sphere = std::get_if<SphereLight>(&lights[i]);
-        const bool clear = sphere && scene.materials.bounds(scene.sphere_materials[sphere->index]).transparent;
-        const float distance = length(b.center - camera.center);
-        const bool both = sphere && (clear || std::abs(distance - b.radius) <= camera.radius);
-        for (; cursor < sum && !rays.stopped(); cursor += 1) {
-            const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
-            if (b.infinite) {
-                auto start =
-                    start_from_infinity(scene, *aimed, lights[i], time, u_position, u_direction, sampler.next_1d());
-                if (!start || is_black(start->emission.power))
-                    continue;
-                const auto weight = float(1 / (shares[i] * settings.paths));
-                start->emission.power *= weight;
-                const float target = start->body_power * weight * importance(scene.medium->bounded()->bounds_center());
-                subpath.trace(start->emission, start->delta, {}, target, group);
-                continue;
-            }
-            const bool inwards = both ? sampler.next_1d() < 0.5f : distance < b.radius;
-            auto start = sample_emission(lights[i], inwards, u_position, u_direction, sampler.next_1d());
-            if (!start || is_black(start->power))
-                continue;
-            start->ray.time = time;
-            if (start->dark > 0)
-                start->power *= passes_dark(scene, *start, rays);
-            start->power *= float((both ? 2 : 1) / (shares[i] * settings.paths));
-            const float target = max_component(start->power) * importance(b.center);
-            subpath.trace(*start, traits(lights[i]).delta, dielectrics_at(scene, start->ray.origin, time, kSubpathKind),
-                          target, start->group ? start->group : group);
-        }
+    double cursor = starts.any() ? double(sampler.next_1d()) : 0, sum = 0;
+    for (uint32_t i = 0; starts.any() && i < scene.lights.size(); ++i) {
+        sum += starts.share(i) * settings.paths;
+        for (; cursor < sum && !rays.stopped(); cursor += 1)
+            if (const auto start = starts.sample(i, time, sampler, rays))
+                subpath.trace(*start);
     }
     return out;
 }

@@ -98,8 +98,10 @@ GLIMMER_TUNABLE_CONSTANT(float, kWindowScale, 1.5f);
 /// Weight above which a subpath splits, and the largest number of its parts. Chosen.
 GLIMMER_TUNABLE_CONSTANT(float, kSplitAbove, 1.5f);
 GLIMMER_TUNABLE_CONSTANT(float, kMostParts, 8);
-/// From one of the disks that light from infinity is aimed at to the next, the factor of their radii. Chosen.
-GLIMMER_TUNABLE_CONSTANT(float, kDiskGrowth, 4);
+/// Light from afar is aimed at regions about the media: from one to the next the factor of their radii, and the sine of
+/// the half angle of the widest cone from a light. Chosen.
+GLIMMER_TUNABLE_CONSTANT(float, kAimGrowth, 4);
+GLIMMER_TUNABLE_CONSTANT(float, kWidestCone, 0.5f);
 /// Directions drawn at a surface vertex for splats of the remainder of its BSDF, for a subpath of weight 1; and the
 /// weight up to which the number grows (a subpath straight from a distant light may weigh thousands). Chosen.
 GLIMMER_TUNABLE_CONSTANT(uint32_t, kSplatDirections, 32);
