@@ -184,6 +184,14 @@ def moving_plates() -> Builder:
     return scene.sphere((0.5, 16, 6), 1.5, d.Light((1, 1, 3)))
 
 
+def black_ground() -> Builder:
+    """Surfaces that hold no light vertices, beside one that does, and one that is black but for its highlight."""
+    scene = Builder(camera((0, -4, 2), (0, 4, 1), 60), 32, 24, medium=d.Medium((0.01, 0.02, 0.01), (0.1, 0.08, 0.15)))
+    scene.mesh(floor(0, 8, (0, 4)), d.Lambert(grey(0))).mesh(quad((-2, 4, 1), (0, 1, 0), (0, 0, 1)), d.Lambert(WHITE))
+    scene.sphere((1.5, 3, 0.7), 0.7, d.Mix(0.5, d.Conductor(0.2, f0=grey(0.9)), d.Lambert(grey(0))))
+    return scene.sphere((0.5, 5, 2.5), 0.5, d.Light((9, 6, 4)))
+
+
 def light_close_above_metal() -> Builder:
     """A layer of fog on smooth metal: half of its light was thrown there from a shorter way than connections count."""
     scene = Builder(camera((3, -3, 0.3), (3, 4, 0.3), 4), 32, 24, medium=d.Medium(grey(0.05), grey(0.1)))
@@ -291,6 +299,7 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "light by way of metal, in a mirror": metal_seen_in_a_mirror,
     "light by way of metal, forward": lambda: light_by_way_of_metal(0.4),
     "light close above metal": light_close_above_metal,
+    "black ground": black_ground,
     "far forward": lambda: field(d.Medium((0.0, 0.01, 0.02), (0.06, 0.05, 0.05), 0.85)),
     "glints through a lens": glints_through_a_lens,
     "glints through an aperture": lambda: glints_through_a_lens(APERTURE),

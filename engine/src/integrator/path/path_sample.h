@@ -177,10 +177,10 @@ class PathSample {
     void gather_along(const State &state, float end, const Medium &medium);
     /// Adds the light that the medium at state.ray.origin scatters back along the ray after it was scattered before:
     /// the bounded connections to the light vertices now, what they leave out by the compensation ray that `state`
-    /// becomes. False if roulette or a depth limit ended it. points: the number of gather points of the segment. t: the
-    /// distance of the point from where the camera's ray starts, 0 where the point is not on that ray and so no splats
-    /// count.
-    bool gather(State &state, float points, float t, float roulette_scale);
+    /// becomes. False if roulette or a depth limit ended it. points: the number of gather points of the segment.
+    /// subset: of the light vertices. t: the distance of the point from where the camera's ray starts, 0 where the
+    /// point is not on that ray and so no splats count.
+    bool gather(State &state, float points, uint32_t subset, float t, float roulette_scale);
     /// Adds the light that arrives at a gather point straight from infinitely far. certain: the camera sees the point.
     void light_gather_point_from_infinity(const State &at, const Medium &medium, bool certain);
     /// Follows a compensation ray to the next vertex.

@@ -15,6 +15,7 @@ template <KernelFeatures F>
 void PathSample<F>::gather_along(const State &state, float end, const Medium &medium) {
     const uint32_t n = state.seen_directly() ? context_.light_vertices->settings.gathers : 1;
     const uint64_t stratum = ~0ull / n;
+    const uint32_t first_subset = context_.light_vertices->vertices.random_subset(sampler_);
     for (uint32_t k = 0; k < n; ++k) {
         const uint64_t bits = stratum * k + sampler_.next_bits() / n;
         const Collision c =
@@ -29,7 +30,8 @@ void PathSample<F>::gather_along(const State &state, float end, const Medium &me
         if (is_lit_from_infinity(medium))
             light_gather_point_from_infinity(at, medium, state.seen_directly());
         const float roulette_scale = state.seen_directly() ? kRouletteScaleAtGathers : kRouletteScaleAtSurfaces;
-        if (!gather(at, float(n), state.depth == 0 ? state.passed_length() + c.t : 0, roulette_scale))
+        const uint32_t subset = context_.light_vertices->vertices.subset_of(first_subset, k);
+        if (!gather(at, float(n), subset, state.depth == 0 ? state.passed_length() + c.t : 0, roulette_scale))
             stack_.pop_back();
     }
 }
@@ -45,7 +47,7 @@ void PathSample<F>::light_gather_point_from_infinity(const State &at, const Medi
 }
 
 template <KernelFeatures F>
-bool PathSample<F>::gather(State &state, float points, float t, float roulette_scale) {
+bool PathSample<F>::gather(State &state, float points, uint32_t subset, float t, float roulette_scale) {
     if (context_.limits.depth - state.depth <
         2) // the depth limit leaves no room for a vertex between here and the light
         return false;
@@ -60,8 +62,8 @@ bool PathSample<F>::gather(State &state, float points, float t, float roulette_s
     if constexpr (F.passes)
         if (trace_.passes && context_.light_vertices->settings.grouped)
             groups = &by_group;
-    const Rgb gathered =
-        state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, room, sampler_, trace_, groups);
+    const Rgb gathered = state.beta * context_.light_vertices->vertices.gather(x, state.ray.direction, subset, room,
+                                                                               sampler_, trace_, groups);
     aov_of_scattering(state, PathClass::medium) += gathered;
     if constexpr (F.passes) {
         if (groups)
@@ -121,7 +123,7 @@ void PathSample<F>::compensate(State &state, const Medium &medium) {
             return;
         state.ray.origin = state.ray.origin + state.ray.direction * flight.t;
         sample_light_in_medium(state, state.ray.origin, medium, medium.phase(), false);
-        if (gather(state, 1, 0, kRouletteScaleAtGathers))
+        if (gather(state, 1, context_.light_vertices->vertices.random_subset(sampler_), 0, kRouletteScaleAtGathers))
             push(state);
     } else if constexpr (F.surfaces) {
         if (!hit)

@@ -179,9 +179,8 @@ struct BlockVertices::Connections {
     std::array<Rgb, tuning::kSurfacePicks> surface_values;
 };
 
-Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &room, Sampler &sampler,
+Rgb BlockVertices::gather(const Vec3f &x, const Vec3f &seen, uint32_t subset, const DepthLimits &room, Sampler &sampler,
                           TraceContext &rays, LightGroups *groups) const {
-    const uint32_t subset = std::min(uint32_t(sampler.next_1d() * float(settings_.subsets)), settings_.subsets - 1);
     const float scale = settings_.clamp_distance_scale(scene_.camera.distance(x));
     const GatherQuery point{x, seen, subset, scale * settings_.medium_clamp_distance,
                             scale * settings_.surface_clamp_distance};

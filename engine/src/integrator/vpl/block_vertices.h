@@ -6,6 +6,8 @@
 #include "integrator/vpl/light_vertices.h"
 #include "integrator/vpl/vpl_settings.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace glimmer {
@@ -23,11 +25,20 @@ class BlockVertices {
     /// Radiance that the medium at x scatters towards the camera, which looks along `seen` (unit, away from the
     /// camera), per unit of the weight of scattering at x: all light that was scattered at least once before, each
     /// vertex weighted by w(d) with the clamp distance of x. The sum over one subset of the picks, corrected by one
-    /// shadow ray. Unbiased; a single estimate may be negative. room: how many vertices the depth limits leave to the
-    /// light subpath; vertices of greater depth are not joined. groups: where not null, each part of the sum is added
-    /// to the group of its light as well; the settings must be grouped.
-    Rgb gather(const Vec3f &x, const Vec3f &seen, const DepthLimits &room, Sampler &sampler, TraceContext &rays,
-               LightGroups *groups) const;
+    /// shadow ray. Unbiased over uniformly random subsets; a single estimate may be negative. room: how many vertices
+    /// the depth limits leave to the light subpath; vertices of greater depth are not joined. groups: where not null,
+    /// each part of the sum is added to the group of its light as well; the settings must be grouped.
+    Rgb gather(const Vec3f &x, const Vec3f &seen, uint32_t subset, const DepthLimits &room, Sampler &sampler,
+               TraceContext &rays, LightGroups *groups) const;
+
+    uint32_t random_subset(Sampler &sampler) const {
+        return std::min(uint32_t(sampler.next_1d() * float(settings_.subsets)), settings_.subsets - 1);
+    }
+    /// The subset of the k-th gather point of a segment whose first has `first`. Neighbours hold neighbouring picks, so
+    /// a stride spreads what a segment sees over all of them.
+    uint32_t subset_of(uint32_t first, uint32_t k) const {
+        return (first + k * tuning::kSubsetStride) % settings_.subsets;
+    }
 
   private:
     struct GatherQuery;

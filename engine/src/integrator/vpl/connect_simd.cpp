@@ -5,7 +5,7 @@
 
 namespace glimmer {
 
-const ConnectKernels kConnectAvx2 = {"AVX2", connect, pick_targets};
+const ConnectKernels kConnectAvx2 = {"AVX2", connect, pick_targets, diffuse};
 
 const ConnectKernels &connect_kernels() {
     static const ConnectKernels &widest = has_avx512() ? kConnectAvx512 : kConnectAvx2;

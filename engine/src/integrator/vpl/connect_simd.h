@@ -17,6 +17,11 @@ struct VertexColumns {
     const float *dx, *dy, *dz; ///< unit direction of flight; null in an isotropic medium
 };
 
+/// Places alone, as three arrays.
+struct PointColumns {
+    const float *x, *y, *z;
+};
+
 /// A gather point, and the direction in which the camera path looks there.
 struct GatherPoint {
     float x, y, z;
@@ -46,6 +51,10 @@ struct ConnectKernels {
     /// power, at the mean extinction of the channels and whatever the points' view.
     void (*pick_targets)(const SimdMedium &medium, const VertexColumns &vertices, size_t count,
                          const GatherPoint *points, size_t point_count, float clamp_distance, float *targets);
+    /// sum_q e^(-kappa |x - q|) / sqrt(|x - q|^2 + softening2) over `count` points q, a multiple of 16
+    /// (importance_map.h).
+    float (*diffuse)(const PointColumns &points, size_t count, float x, float y, float z, float kappa,
+                     float softening2);
 };
 
 extern const ConnectKernels kConnectAvx2, kConnectAvx512;

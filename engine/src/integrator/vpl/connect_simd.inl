@@ -79,5 +79,16 @@ void pick_targets(const SimdMedium &medium, const VertexColumns &vertices, size_
     }
 }
 
+float diffuse(const PointColumns &points, size_t count, float x, float y, float z, float kappa, float softening2) {
+    Float16 total;
+    for (size_t i = 0; i < count; i += kSimdLanes) {
+        const Vec3x16 way{Float16::load(points.x + i) - Float16(x), Float16::load(points.y + i) - Float16(y),
+                          Float16::load(points.z + i) - Float16(z)};
+        const Float16 d2 = squared(way);
+        total = total + exp(Float16(-kappa) * sqrt(d2)) / sqrt(d2 + Float16(softening2));
+    }
+    return sum(total);
+}
+
 } // namespace
 } // namespace glimmer

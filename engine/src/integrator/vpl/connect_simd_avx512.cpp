@@ -4,6 +4,6 @@
 
 namespace glimmer {
 
-const ConnectKernels kConnectAvx512 = {"AVX-512", connect, pick_targets};
+const ConnectKernels kConnectAvx512 = {"AVX-512", connect, pick_targets, diffuse};
 
 } // namespace glimmer

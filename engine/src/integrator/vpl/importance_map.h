@@ -15,11 +15,11 @@ namespace glimmer {
 /// that a whole block sees.
 class ImportanceMap {
   public:
-    ImportanceMap(const Scene &scene, std::vector<Vec3f> gather_points);
+    ImportanceMap(const Scene &scene, const std::vector<Vec3f> &gather_points);
     float operator()(const Vec3f &x) const;
 
   private:
-    std::vector<Vec3f> points_;
+    std::vector<float> x_, y_, z_; ///< of the points; repeated until they fill registers
     float kappa_ = 0, softening2_ = 1;
 };
 

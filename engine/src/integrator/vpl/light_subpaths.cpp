@@ -177,7 +177,9 @@ class LightSubpath {
             crossing.emplace(surface, shading.interior_ior, path.ray.direction, path.interior, scene_.within_glass());
             bsdf.eta = crossing->eta;
         }
-        const float weight = bsdf.empty() ? 0 : apply_window(path, surface.position);
+        if (!(max_value(bsdf) > 0)) // black: a vertex would bring nothing, and no light goes on
+            return;
+        const float weight = apply_window(path, surface.position);
         if (weight == 0)
             return;
         const Vec3f incoming = -path.ray.direction;

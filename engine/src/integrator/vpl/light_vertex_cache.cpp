@@ -5,6 +5,7 @@
 #include "integrator/vpl/gather_points.h"
 #include "integrator/vpl/importance_map.h"
 #include "integrator/vpl/light_subpaths.h"
+#include "integrator/vpl/spatial_order.h"
 #include "integrator/vpl/streams.h"
 #include "integrator/vpl/tuning.h"
 
@@ -99,6 +100,7 @@ std::unique_ptr<const WaveData> LightVertexCache::prepare_wave(uint64_t seed, ui
     const ImportanceMap importance(scene_, sample_gather_points(scene_, picture, around_camera_,
                                                                 tuning::kImportancePoints, wave->time, sampler, rays));
     wave->vertices = trace_light_subpaths(scene_, importance, settings_, wave->time, sampler, rays);
+    sort_in_space(wave->vertices);
     return wave;
 }
 

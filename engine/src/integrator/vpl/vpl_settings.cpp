@@ -63,9 +63,10 @@ VplSettings make_vpl_settings(const Scene &scene, const DepthLimits &limits, con
     settings.limits = limits;
     const FilmSettings &film = scene.film;
     const uint32_t pixels = film.crop_width * film.crop_height;
-    const uint32_t pixels_per_path = scene.has_surfaces ? tuning::kPixelsPerPath : tuning::kPixelsPerPathInMediumAlone;
+    const bool reflects = scene.has_surfaces && scene.max_value > 0; // black surfaces only stand in the way
+    const uint32_t pixels_per_path = reflects ? tuning::kPixelsPerPath : tuning::kPixelsPerPathInMediumAlone;
     settings.paths = std::clamp(pixels / pixels_per_path, tuning::kFewestPaths, tuning::kMostPaths);
-    settings.gathers = scene.has_surfaces ? tuning::kGathers : tuning::kGathersInMediumAlone;
+    settings.gathers = reflects ? tuning::kGathers : tuning::kGathersInMediumAlone;
 
     TraceContext rays;
     Sampler sampler = make_stream(Stream::pilot, 0, 0, 0, 0);
