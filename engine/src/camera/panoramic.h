@@ -3,9 +3,8 @@
 // which direction is seen where. Clipping planes are spheres about it, and what is in focus lies on one.
 #pragma once
 
-#include "camera/camera_base.h"
+#include "camera/from_point.h"
 #include "camera/panorama.h"
-#include "medium/equiangular.h"
 
 #include <cmath>
 #include <optional>
@@ -77,21 +76,13 @@ struct PanoramicCamera : CameraBase {
 
     RayInterval clip(const Ray &ray, const FilmRectangle &) const { return {0, ray.t_max}; }
 
-    /// As of a perspective camera.
     PointOnRay sample_seen(const Ray &ray, const RayInterval &seen, float, float u) const {
-        const float foot = -dot(ray.origin, ray.direction); // of the perpendicular from the camera
-        const Equiangular angle(seen.begin - foot, seen.end - foot, length(ray.origin + ray.direction * foot));
-        const float from_foot = angle.sample(u);
-        return {from_foot + foot, angle.pdf(from_foot)};
+        return sample_by_angle(ray, seen, u);
     }
 
     /// middle: unit direction; reach: radians. half_width: half of Panorama::angle_per_width.
     std::optional<Silhouette> silhouette(const Vec3f &center, float radius, float margin) const {
-        const float away = distance(center);
-        if (!(radius < away))
-            return std::nullopt;
-        const float blur = has_lens() ? lens_radius * std::abs(1 / away - 1 / focus_distance) : 0;
-        return Silhouette{center / away, std::asin(radius / away) + margin * half_width + blur};
+        return cone_about_sphere(*this, center, radius, margin);
     }
 
     bool sees_any(const std::vector<Silhouette> &silhouettes, Vec2f film) const {

@@ -3,8 +3,7 @@
 // the horizontal angle.
 #pragma once
 
-#include "camera/camera_base.h"
-#include "medium/equiangular.h"
+#include "camera/from_point.h"
 
 #include <cmath>
 #include <optional>
@@ -60,21 +59,13 @@ struct PerspectiveCamera : CameraBase {
         return seen;
     }
 
-    /// By the angle about the camera, whose density takes the place of 1 / distance^2 in what the film receives.
     PointOnRay sample_seen(const Ray &ray, const RayInterval &seen, float, float u) const {
-        const float foot = -dot(ray.origin, ray.direction); // of the perpendicular from the camera
-        const Equiangular angle(seen.begin - foot, seen.end - foot, length(ray.origin + ray.direction * foot));
-        const float from_foot = angle.sample(u);
-        return {from_foot + foot, angle.pdf(from_foot)};
+        return sample_by_angle(ray, seen, u);
     }
 
     /// middle: unit direction; reach: radians.
     std::optional<Silhouette> silhouette(const Vec3f &center, float radius, float margin) const {
-        const float away = distance(center);
-        if (!(radius < away))
-            return std::nullopt;
-        const float blur = has_lens() ? lens_radius * std::abs(1 / away - 1 / focus_distance) : 0;
-        return Silhouette{center / away, std::asin(radius / away) + margin * half_width + blur};
+        return cone_about_sphere(*this, center, radius, margin);
     }
 
     bool sees_any(const std::vector<Silhouette> &silhouettes, Vec2f film) const {

@@ -218,9 +218,9 @@ float ridged_multifractal(Point<N> p, float octaves, float falloff, const NoiseP
     return value;
 }
 
+/// All kinds but fbm, which differs by the version of the node.
 template <size_t N>
-float fractal(const Point<N> &p, const NoiseParameters &n) {
-    const float octaves = std::clamp(n.detail, 0.0f, kMostOctaves) + 1, falloff = std::max(n.roughness, 0.0f);
+float rough_fractal(const Point<N> &p, float octaves, float falloff, const NoiseParameters &n) {
     switch (n.kind) {
     case NoiseKind::multifractal:
         return multifractal<N>(p, octaves, falloff, n);
@@ -233,6 +233,14 @@ float fractal(const Point<N> &p, const NoiseParameters &n) {
     case NoiseKind::fbm:
         break;
     }
+    return 0;
+}
+
+template <size_t N>
+float fractal(const Point<N> &p, const NoiseParameters &n) {
+    const float octaves = std::clamp(n.detail, 0.0f, kMostOctaves) + 1, falloff = std::max(n.roughness, 0.0f);
+    if (n.kind != NoiseKind::fbm)
+        return rough_fractal<N>(p, octaves, falloff, n);
     return fbm<N>(p, n);
 }
 
@@ -266,18 +274,8 @@ float musgrave(const Point<N> &p, float dimension, NoiseParameters n) {
     n.lacunarity = std::max(n.lacunarity, 1e-5f);
     const float falloff = std::pow(n.lacunarity, -std::max(dimension, 1e-5f));
     const float octaves = std::clamp(n.detail, 0.0f, kMostOctaves);
-    switch (n.kind) {
-    case NoiseKind::multifractal:
-        return multifractal<N>(p, octaves, falloff, n);
-    case NoiseKind::hybrid:
-        return hybrid_multifractal<N>(p, octaves, falloff, n);
-    case NoiseKind::ridged:
-        return ridged_multifractal<N>(p, octaves, falloff, n);
-    case NoiseKind::hetero:
-        return hetero_terrain<N>(p, octaves, falloff, n);
-    case NoiseKind::fbm:
-        break;
-    }
+    if (n.kind != NoiseKind::fbm)
+        return rough_fractal<N>(p, octaves, falloff, n);
     const int whole = int(octaves);
     float value = 0, power = 1;
     Point<N> q = p;
