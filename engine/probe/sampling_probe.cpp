@@ -34,6 +34,15 @@ PROBE void probe_sampler(uint64_t seed, const uint32_t *pixel_x, const uint32_t 
     }
 }
 
+/// How often of n times next_bool is true.
+PROBE uint64_t probe_next_bool(uint64_t seed, float probability, uint64_t n) {
+    Sampler sampler(seed, 0, 0, 0, 0);
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < n; ++i)
+        count += sampler.next_bool(probability);
+    return count;
+}
+
 PROBE void probe_exponential(const uint64_t *bits, uint64_t n, float *out) {
     for (uint64_t i = 0; i < n; ++i)
         out[i] = exponential(bits[i]);

@@ -46,6 +46,14 @@ def test_the_seed_gives_other_numbers() -> None:
     )
 
 
+@pytest.mark.parametrize("probability", [0.3, 1e-5, 3e-9, 1e-30])
+def test_choices_are_as_rare_as_they_should_be(probability: float) -> None:
+    """Also below the steps of the floats, 6e-8."""
+    count = 1 << 27
+    lower, upper = stats.binom.interval(1 - 1e-6, count, probability)
+    assert lower <= sampling.next_bool(17, probability, count) <= upper
+
+
 def test_numbers_stay_below_one() -> None:
     u = sampling.sampler(0, np.arange(1 << 22), 0, 0, 0)
     for values in (u.next_1d, u.next_2d, u.stratified_1d, u.stratified_2d):

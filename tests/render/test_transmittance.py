@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from addon.scene import description as d
-from tests.render.build import BLACK, WHITE, Builder, floor, grey, radiometer, sky
-from tests.render.statistics import INTEGRATORS, ROUNDING, Measurement, check_radiance
+from tests.render.build import BLACK, WHITE, Builder, camera, floor, grey, radiometer, sky
+from tests.render.statistics import INTEGRATORS, ROUNDING, Measurement, Pictures, check_radiance
 
 pytestmark = pytest.mark.parametrize("integrator", INTEGRATORS)
 
@@ -77,3 +77,12 @@ def test_endless_fog_is_opaque(integrator: str) -> None:
     scene = Builder(radiometer((0, 0, 5), (0, 0, 0)), medium=d.Medium(grey(1e-3), BLACK), environment=sky())
     scene.lamp(d.SunLight("sun", (0, 0, -1), WHITE, 0.5)).mesh(floor(), d.Lambert(WHITE))
     check_radiance(Measurement(scene.done(), integrator, samples=8), 0, within=0)
+
+
+def test_glints_at_the_end_of_sight(integrator: str) -> None:
+    """Ground at optical depths of 80 to 110, where floats lose their digits, beside metal that is near: no fault."""
+    scene = Builder(camera((0, -7, 1.7), (0, 0, 1.5), 50), 24, 18, medium=d.Medium(grey(0.015), grey(0.485), 0.3))
+    scene.mesh(floor(0, 200), d.Lambert(grey(0.4))).sphere((1, 1, 0.7), 0.7, d.Conductor(0.2, f0=grey(0.9)))
+    pictures = Pictures(Measurement(scene.lamp(d.PointLight("point", (0, 3, 4), WHITE)).done(), integrator, samples=4))
+    for seed in range(4):  # it counts samples that are no numbers
+        assert pictures(seed).mean() > 0

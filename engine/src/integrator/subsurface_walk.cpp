@@ -150,7 +150,7 @@ class Walk {
             survival *= std::sqrt(1 - 1 / float(step));
         if (length_squared(position) > body_.radius() * body_.radius())
             survival *= kSurvivalOutside;
-        if (!(survival > 0) || (survival < 1 && sampler_.next_1d() >= survival))
+        if (!(survival > 0) || (survival < 1 && !sampler_.next_bool(survival)))
             return false;
         weight_ *= 1 / survival;
         constexpr uint32_t kCancelCheckInterval = 1024;

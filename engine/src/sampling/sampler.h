@@ -35,6 +35,9 @@ class Sampler {
         const uint64_t bits = next_bits();
         return {unit_float(static_cast<uint32_t>(bits >> 32)), unit_float(static_cast<uint32_t>(bits))};
     }
+    /// True with the probability p, exact to a part in 2^24 down to p = 2^-64. next_1d() < p would be true as often as
+    /// 2^-24 even where p is 1e-30, and what goes on by roulette there would weigh 1e30.
+    bool next_bool(float p) { return static_cast<float>(next_bits()) * 0x1p-64f < p; }
     /// Unit-mean exponential variate, from 3e-20 to 45.
     float next_exponential() { return exponential(next_bits()); }
 

@@ -55,6 +55,11 @@ def sampler(
     return out
 
 
+def next_bool(seed: int, probability: float, n: int) -> int:
+    """How often of n times it is true."""
+    return int(call("probe_next_bool", np.uint64(seed), np.float32(probability), np.uint64(n), returns=ctypes.c_uint64))
+
+
 def exponential(bits: Array, tau: float | None = None) -> Array:
     out = empty(len(bits))
     if tau is None:

@@ -27,7 +27,7 @@ void PathSample<F>::sample_lights_along(const State &state, float end, const Med
     if (!several && has_light_vertices()) { // short segments between surfaces scatter next to nothing
         probability = survival((Rgb(1) - medium.transmittance(state.ray, end)) * state.beta, state.rr_scale, origin,
                                kRouletteScaleInMedium);
-        if (!(probability > 0) || (probability < 1 && sampler_.next_1d() >= probability))
+        if (!(probability > 0) || (probability < 1 && !sampler_.next_bool(probability)))
             return;
     }
     for (uint32_t i = 0; i < choices(several); ++i) {

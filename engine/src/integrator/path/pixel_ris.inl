@@ -57,8 +57,9 @@ void PathSample<F>::pixel_ris(ShutterTime time) {
     }
     if (count == 0)
         return;
-    const float even = (total > 0 ? tuning::kRisUniformFraction : 1.0f) / float(count),
-                scale = total > 0 ? (1 - tuning::kRisUniformFraction) / total : 0.0f;
+    const bool guided = total > tuning::kLeastRisTotal && total < kInfinity;
+    const float even = (guided ? tuning::kRisUniformFraction : 1.0f) / float(count),
+                scale = guided ? (1 - tuning::kRisUniformFraction) / total : 0.0f;
     float left = sampler_.next_1d();
     for (uint32_t i = 0; i < count; ++i) {
         const float probability = even + scale * candidates[i].target;

@@ -246,7 +246,7 @@ bool PathSample<F>::survives(State &state, const Vec3f &x, float roulette_scale)
         return false;
     if (weight == 1)
         return true;
-    if (sampler_.next_1d() >= weight)
+    if (!sampler_.next_bool(weight))
         return false;
     state.beta *= 1 / weight;
     return true;

@@ -202,7 +202,7 @@ bool PathSample<F>::passes_through(State &state, const Interaction &surface, con
             return false;
         const float scattered = certain ? 0 : max_component(albedo(shading.bsdf));
         const float share = through / (through + scattered);
-        if (share < 1 && sampler_.next_1d() >= share) {
+        if (share < 1 && !sampler_.next_bool(share)) {
             state.beta *= 1 / (1 - share);
             return false;
         }
@@ -352,7 +352,7 @@ void PathSample<F>::sample_lights_at(const State &state, const Interaction &surf
         Candidate &c = candidates[i];
         // Beyond the first surface, each light gets its shadow ray with a probability by its part of the sum.
         const float tested = few_rays ? std::min(tuning::kShadowRaysBeyondFirstSurface * c.part / parts, 1.0f) : 1.0f;
-        if (tested < 1 && !(sampler_.next_1d() < tested))
+        if (tested < 1 && !sampler_.next_bool(tested))
             continue;
         Vec3f origin = surface.origin_towards(c.light.direction);
         if constexpr (F.terminators)

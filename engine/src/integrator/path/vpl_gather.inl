@@ -39,7 +39,7 @@ void PathSample<F>::gather_along(const State &state, float end, const Medium &me
 template <KernelFeatures F>
 void PathSample<F>::light_gather_point_from_infinity(const State &at, const Medium &medium, bool certain) {
     const float probability = certain ? 1.0f : survival(at.beta, at.rr_scale, at.ray.origin, kRouletteScaleInMedium);
-    if (!(probability > 0) || (probability < 1 && sampler_.next_1d() >= probability))
+    if (!(probability > 0) || (probability < 1 && !sampler_.next_bool(probability)))
         return;
     State lit = at;
     lit.beta *= 1 / probability;

@@ -115,7 +115,7 @@ class LightSubpath {
     float apply_window(Branch &path, const Vec3f &x) {
         const float weight =
             tuning::kWindowScale * max_component(path.power) * importance_(x) * return_bound(scene_, x) / target_;
-        if (!(weight > 0) || (weight < 1 && sampler_.next_1d() >= weight))
+        if (!(weight > 0) || (weight < 1 && !sampler_.next_bool(weight)))
             return 0;
         if (weight >= 1)
             return weight;
@@ -156,7 +156,7 @@ class LightSubpath {
             scene_.materials.shade(surface, {-path.ray.direction, 0, path.ray.time, kFromDiffuse}, arena_);
         if (const float through = max_component(shading.transparency); through > 0) {
             const float share = through / (through + max_component(albedo(shading.bsdf)));
-            if (share == 1 || sampler_.next_1d() < share) {
+            if (share == 1 || sampler_.next_bool(share)) {
                 path.power *= shading.transparency * (1 / share);
                 path.ray = {surface.origin_towards(path.ray.direction), path.ray.direction, path.ray.time, t_max};
                 --path.depth.depth; // no vertex: the next segment counts its end again
