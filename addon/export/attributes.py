@@ -26,7 +26,15 @@ FIELDS = {
     "BYTE_COLOR": ("color", 4),
 }
 BYTES_FROM = (5, 0)  # Cycles 3.4 does not know numbers of 8 bits, that of 5.0 does
+WEIGHTS_FROM = (4, 2)  # that of 4.2 knows vertex groups as attributes, that of 3.4 does not
 DOMAINS = ("POINT", "EDGE", "CORNER", "FACE")
+
+
+def has_weights() -> bool:
+    """Whether Cycles knows vertex groups as attributes."""
+    import bpy
+
+    return bpy.app.version >= WEIGHTS_FROM
 
 
 def is_known(data_type: str) -> bool:
@@ -61,8 +69,15 @@ def colors(attribute: bpy.types.Attribute | None) -> NDArray[np.float32] | None:
 class AttributeReader:
     """The attributes of a mesh whose triangles were made, by the names that programs have for them."""
 
-    def __init__(self, mesh: bpy.types.Mesh, corners: NDArray[np.int32], corner_vertices: NDArray[np.int32]) -> None:
-        self._mesh = mesh
+    def __init__(
+        self,
+        mesh: bpy.types.Mesh,
+        corners: NDArray[np.int32],
+        corner_vertices: NDArray[np.int32],
+        vertex_groups: tuple[str, ...] = (),
+    ) -> None:
+        """vertex_groups: the names of its object's."""
+        self._mesh, self._groups = mesh, vertex_groups
         self._corners = corners.reshape(-1)  # of the triangles, one after another
         self._corner_vertices = corner_vertices
 
@@ -97,7 +112,18 @@ class AttributeReader:
         if layer is not None:
             return "corner", self._uv(layer)
         attribute = self._mesh.attributes.get(own)
+        if attribute is None and own in self._groups and has_weights():
+            return "corner", self._weights(self._groups.index(own))[self._corner_vertices[self._corners]]
         return None if attribute is None else self._color(attribute)
+
+    def _weights(self, number: int) -> Floats:
+        """(vertices, 1): of a vertex group."""
+        weights = np.zeros((len(self._mesh.vertices), 1), np.float32)
+        for index, vertex in enumerate(self._mesh.vertices):
+            for element in vertex.groups:
+                if element.group == number:
+                    weights[index] = element.weight
+        return weights
 
     def _generated(self) -> Floats:
         """(vertices, 3): the place in the mesh's texture space, before modifiers where Blender kept it."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from math import degrees, pi
+from math import degrees, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -66,14 +66,17 @@ def export_lamp(item: bpy.types.Object, matrix: Floats, rays: Rays, version: Ver
     direction = tuple(float(v) for v in -matrix[:3, 2])
     position = (float(matrix[0, 3]), float(matrix[1, 3]), float(matrix[2, 3]))
     if data.type == "SUN":
+        if not getattr(data, "normalize", True):
+            # The strength is then that of a disc of one square metre at a distance of one metre.
+            power *= pi * sin(data.angle / 2.0) ** 2 if data.angle > 0.0 else 1.0
         irradiance = scaled(color, sun_irradiance(power))
         axis = (direction[0], direction[1], direction[2])
         return SunLight(item.name, axis, irradiance, degrees(data.angle), is_old, flags)
     if data.type == "AREA":
         return _area(item.name, data, matrix, color, power, version, flags)
     if not getattr(data, "normalize", True):
-        # The power is then that of one square metre of the sphere.
-        power *= 4.0 * pi * data.shadow_soft_size**2 if data.shadow_soft_size > 0.0 else 1.0
+        # The power is then that of one square metre of the disc that it shows.
+        power *= 4.0 * (pi * data.shadow_soft_size**2 if data.shadow_soft_size > 0.0 else 1.0)
     intensity = scaled(color, point_intensity(power))
     radius = data.shadow_soft_size
     is_disk = is_old or data.use_soft_falloff

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 # Corner normals that differ by less are one: Blender stores custom normals in 16 bits.
 NORMAL_TOLERANCE = 1e-4
+SMOOTHED_FROM, SMOOTHED_UNTIL = (4, 2), (5, 2)
 
 
 def read(collection: Any, name: str, kind: type[np.generic], components: int = 1) -> NDArray[Any]:
@@ -59,12 +60,27 @@ def doubled_faces(mesh: Mesh) -> int:
     return len(keys) - len(np.unique(keys))
 
 
+def turned_faces(mesh: Mesh) -> int:
+    """How many triangles have a normal at a corner that faces away from them, by more than what rounding may do."""
+    if mesh.normals is None:
+        return 0
+    corners = np.asarray(mesh.vertices, np.float64)[mesh.triangles]
+    across = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    cosines = np.einsum("tci,ti->tc", mesh.normals[mesh.triangles], across)
+    return int((cosines < -0.01).any(axis=1).sum())
+
+
 def export_mesh(
-    mesh: bpy.types.Mesh, name: str, slot_count: int = 1, attributes: frozenset[str] = frozenset()
+    mesh: bpy.types.Mesh,
+    name: str,
+    slot_count: int = 1,
+    attributes: frozenset[str] = frozenset(),
+    vertex_groups: tuple[str, ...] = (),
 ) -> Mesh | None:
     """None for a mesh without faces. Faces of slots that the object lacks use the last, as in Blender.
 
     attributes: names of those that shader programs ask for (see translate.surface); the mesh may lack them.
+    vertex_groups: the names of its object's.
 
     Raises GlimmerError for a mesh that cannot be read."""
     if hasattr(mesh, "calc_normals_split"):  # before 4.1; later versions have corner normals at all times
@@ -83,11 +99,12 @@ def export_mesh(
         raise GlimmerError(f"Mesh '{name}' cannot be read: it uses vertices that it does not have; validate() mends it")
     slots = read(triangles, "material_index", np.int32).clip(0, slot_count - 1)
     slots_or_none = slots.astype(np.uint16) if slots.any() else None
-    read_attributes = AttributeReader(mesh, corners, corner_vertices).read(attributes) if attributes else ()
+    reader = AttributeReader(mesh, corners, corner_vertices, vertex_groups)
+    read_attributes = reader.read(attributes) if attributes else ()
     if _is_smooth_throughout(mesh):
         normals = smooth_normals(vertices, corner_vertices, *_faces(mesh))
         return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), normals, slots_or_none, read_attributes)
-    corner_normals = _corner_normals(mesh, corners)
+    corner_normals = _corner_normals(mesh, corners, vertices, corner_vertices)
     if corner_normals is None:
         return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), None, slots_or_none, read_attributes)
     source, new_vertex = split_by_normal(corner_vertices, corner_normals)
@@ -156,12 +173,26 @@ def _unit(vectors: Floats) -> Floats:
     return vectors / np.where(lengths > 0.0, lengths, 1.0)
 
 
-def _corner_normals(mesh: bpy.types.Mesh, corners: NDArray[np.int32]) -> Floats | None:
+def _is_smoothed_over_flat_faces(mesh: bpy.types.Mesh) -> bool:
+    """Whether Cycles shades smooth faces as if those beside them which are flat were smooth too."""
+    import bpy
+
+    if mesh.has_custom_normals or not SMOOTHED_FROM <= bpy.app.version < SMOOTHED_UNTIL:
+        return False
+    return not read(mesh.edges, "use_edge_sharp", np.bool_).any()
+
+
+def _corner_normals(
+    mesh: bpy.types.Mesh, corners: NDArray[np.int32], vertices: Floats, corner_vertices: NDArray[np.int32]
+) -> Floats | None:
     """(corners, 3), zero on flat faces; None where all faces are flat."""
     smooth = read(mesh.polygons, "use_smooth", np.bool_)
     if not smooth.any() and not mesh.has_custom_normals:
         return None
-    normals = read(mesh.loops, "normal", np.float32, 3)
+    if _is_smoothed_over_flat_faces(mesh):
+        normals = smooth_normals(vertices, corner_vertices, *_faces(mesh))[corner_vertices]
+    else:
+        normals = read(mesh.loops, "normal", np.float32, 3)
     if not mesh.has_custom_normals and not smooth.all():
         polygon_of_triangle = read(mesh.loop_triangles, "polygon_index", np.int32)
         normals[corners[~smooth[polygon_of_triangle]].reshape(-1)] = 0.0

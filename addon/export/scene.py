@@ -43,7 +43,7 @@ from .instance_attributes import instance_attributes, property_of
 from .kept import Kept, owners_of
 from .light import export_lamp
 from .material import Aov, export_material, export_volume, has_aovs
-from .mesh import doubled_faces, export_mesh, flattened
+from .mesh import doubled_faces, export_mesh, flattened, turned_faces
 from .motion import (
     Motion,
     Recording,
@@ -306,7 +306,7 @@ class _Collector:
 
     def add(self, placed: Placed) -> None:
         kind = placed.item.type
-        note_differences(placed.item, self._notices)
+        note_differences(placed.item, self._depsgraph.scene_eval, self._notices)
         if kind != "LIGHT" and not placed.visibility.rays:
             return  # and it shines no more either
         if not self._is_in_layer(placed):
@@ -649,13 +649,11 @@ class _Collector:
             return None
         key = (item.data.as_pointer(), slot_count, attributes)
         if key not in self._meshes:
-            self._meshes[key], doubled = self._kept.get(
+            self._meshes[key], told = self._kept.get(
                 "meshes", owners_of(item), key, lambda: _read_mesh(item, slot_count, attributes)
             )
-            if doubled:
-                self._notices.add(
-                    place(item.name), f"{doubled} of its faces lie on others, which Cycles shows with dark spots"
-                )
+            for what in told:
+                self._notices.add(place(item.name), what)
         return self._meshes[key]
 
     def _material(
@@ -691,13 +689,23 @@ class _Collector:
         return found, tuple(notices.items)
 
 
-def _read_mesh(item: bpy.types.Object, slot_count: int, attributes: frozenset[str]) -> tuple[Mesh | None, int]:
-    """And how many of its faces lie on others."""
+def _read_mesh(
+    item: bpy.types.Object, slot_count: int, attributes: frozenset[str]
+) -> tuple[Mesh | None, tuple[str, ...]]:
+    """And what there is to say of it."""
     # A copy: triangles and split normals are made in place, and the evaluated mesh belongs to Blender.
     mesh = item.to_mesh()
     try:
-        read = None if mesh is None else export_mesh(mesh, item.data.name, slot_count, attributes)
-        return read, 0 if read is None else doubled_faces(read)
+        groups = tuple(group.name for group in item.vertex_groups)
+        read = None if mesh is None else export_mesh(mesh, item.data.name, slot_count, attributes, groups)
+        if read is None:
+            return None, ()
+        told = []
+        if doubled := doubled_faces(read):
+            told.append(f"{doubled} of its faces lie on others, which Cycles shows with dark spots")
+        if mesh.has_custom_normals and (turned := turned_faces(read)):
+            told.append(f"{turned} of its faces have custom normals that face away from them; those are turned around")
+        return read, tuple(told)
     except (RuntimeError, ValueError, IndexError) as error:
         raise GlimmerError(f"The mesh of object '{item.name}' cannot be read: {error}") from error
     finally:

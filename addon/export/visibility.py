@@ -84,9 +84,19 @@ def world_rays(world: bpy.types.World | None) -> Rays:
     return rays
 
 
-def note_differences(item: bpy.types.Object, notices: Notices) -> None:
+def _is_culled(item: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether Cycles may leave an object out by what is in sight: settings of its own, beneath Simplify."""
+    settings, own = getattr(scene, "cycles", None), getattr(item, "cycles", None)
+    if settings is None or own is None or not scene.render.use_simplify:
+        return False
+    return any(getattr(settings, name) and getattr(own, name) for name in ("use_camera_cull", "use_distance_cull"))
+
+
+def note_differences(item: bpy.types.Object, scene: bpy.types.Scene, notices: Notices) -> None:
     """What an object asks for that is not rendered."""
     where = place(item.name)
+    if _is_culled(item, scene):
+        notices.add(where, "culling by the camera or by distance is not supported; it is there in any case")
     if item.type != "LIGHT" and item.is_shadow_catcher:
         notices.add(where, "a shadow catcher is not supported; it is rendered as an ordinary object")
     if item.type != "LIGHT" and _terminator(

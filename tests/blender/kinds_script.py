@@ -248,6 +248,15 @@ def pointiness() -> None:
     inside.add_mesh("Block", mesh, shown(lambda tree: make(tree, "ShaderNodeNewGeometry", "Pointiness")))
 
 
+@case
+def vertex_group() -> None:
+    """Cycles 3.4 does not know it as an attribute."""
+    item = inside.ball("Ball", shown(lambda tree: make(tree, "ShaderNodeAttribute", attribute_name="Group")))
+    group = item.vertex_groups.new(name="Group")
+    for index in range(0, len(item.data.vertices), 2):
+        group.add([index], index / len(item.data.vertices), "REPLACE")
+
+
 def hair(output: str) -> None:
     item = inside.ball("Ball", shown(lambda tree: make(tree, "ShaderNodeHairInfo", output)))
     item.modifiers.new("Hair", "PARTICLE_SYSTEM")
@@ -307,13 +316,19 @@ def world_without_its_image() -> None:
 # ---- Objects -----------------------------------------------------------------------------------------------------
 
 
-@case
-def scales() -> None:
+def normals() -> Any:
+    """A material that shows the normal."""
+
     def build(tree: Any) -> Any:
         inputs = {0: make(tree, "ShaderNodeNewGeometry", "Normal"), 1: (0.4,) * 3, 2: (0.5,) * 3}
         return make(tree, "ShaderNodeVectorMath", inputs=inputs, operation="MULTIPLY_ADD")
 
-    shader = shown(build)
+    return shown(build)
+
+
+@case
+def scales() -> None:
+    shader = normals()
     mirrored = inside.ball("Mirrored", shader, (-1.5, 0.0, 1.0), segments=12)
     mirrored.scale = (-1.0, 0.7, 1.0)
     parent = bpy.data.objects.new("Parent", None)
@@ -321,6 +336,41 @@ def scales() -> None:
     parent.scale = (2.0, 1.0, 0.5)
     sheared = inside.ball("Sheared", shader, (0.7, 0.0, 1.5), segments=12)
     sheared.parent, sheared.rotation_euler = parent, (0.3, 0.5, 0.7)
+
+
+@case
+def flat_faces_beside_smooth_ones() -> None:
+    for x, edges in ((-1.2, 0), (1.2, 20)):
+        item = inside.ball("Ball", normals(), (x, 0.0, 1.0), segments=12)
+        item.data.polygons.foreach_set("use_smooth", [i % 3 > 0 for i in range(len(item.data.polygons))])
+        for edge in item.data.edges[:edges]:
+            edge.use_edge_sharp = True
+
+
+@case
+def normals_that_face_away() -> None:
+    item = inside.ball("Ball", normals(), segments=12)
+    if hasattr(item.data, "use_auto_smooth"):
+        item.data.use_auto_smooth = True
+    item.data.normals_split_custom_set([(0.0, 0.0, 1.0)] * len(item.data.loops))
+
+
+@case
+def culled() -> None:
+    scene = bpy.context.scene
+    scene.render.use_simplify = True
+    scene.cycles.use_distance_cull, scene.cycles.distance_cull_margin = True, 3.0
+    inside.ball("Ball", material()).cycles.use_distance_cull = True
+
+
+@case
+def lamps_that_are_not_normalized() -> None:
+    if "normalize" not in bpy.types.PointLight.bl_rna.properties:
+        return
+    inside.plane(material=material("ShaderNodeBsdfDiffuse", (0.8, 0.8, 0.8)))
+    inside.lamp("POINT", (-1.5, 0.0, 1.5), energy=20.0, shadow_soft_size=0.0, normalize=False)
+    inside.lamp("SPOT", (1.5, 0.0, 3.0), energy=20.0, shadow_soft_size=0.0, spot_size=0.9, normalize=False)
+    inside.lamp("SUN", (0.0, 0.0, 5.0), energy=3.0, angle=0.4, normalize=False)
 
 
 @case
@@ -476,7 +526,7 @@ def blocks(picture: Any) -> Any:
 def compared(out: Path, build: Callable[[], None]) -> dict[str, Any]:
     scene = inside.empty_scene((0.3, 0.35, 0.4))
     scene.timeline_markers.clear()
-    scene.background_set = None
+    scene.background_set, scene.render.use_simplify = None, False
     layer = bpy.context.view_layer
     layer.use_sky = layer.use_solid = True
     build()
