@@ -6,11 +6,14 @@ from math import exp, log, sqrt
 import numpy as np
 
 from ..scene.description import Floats, Rgb
+from . import observer
 
 # CIE XYZ to linear Rec. 709, white at D65.
 TO_RGB = np.array(
     [[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]]
 )
+
+BLACKBODY_RANGE = (800.0, 12000.0)  # kelvins, beyond which the colour stays
 
 
 def scaled(color: Rgb, factor: float) -> Rgb:
@@ -39,20 +42,11 @@ def luminance(color: Rgb) -> float:
 def blackbody(kelvin: float) -> Rgb:
     """Linear Rec. 709 of luminance 1, colours outside of the gamut cut to 0.
 
-    Planck's law over the fits to the CIE 1931 observer of Wyman, Sloan and Shirley 2013 ("Simple analytic
-    approximations to the CIE XYZ color matching functions", multi-lobe), from 380 to 780 nm.
+    Planck's law over the CIE 1931 observer, between the temperatures beyond which Blender's renderers keep the colour.
     """
-    wavelengths = np.arange(380.0, 781.0, 5.0)
-    spectrum = wavelengths**-5.0 / np.expm1(1.4387769e7 / (wavelengths * max(kelvin, 800.0)))
-
-    def lobe(center: float, below: float, above: float) -> Floats:
-        width = np.where(wavelengths < center, below, above)
-        return np.exp(-0.5 * ((wavelengths - center) * width) ** 2)
-
-    x = 1.056 * lobe(599.8, 0.0264, 0.0323) + 0.362 * lobe(442.0, 0.0624, 0.0374) - 0.065 * lobe(501.1, 0.0490, 0.0382)
-    y = 0.821 * lobe(568.8, 0.0213, 0.0247) + 0.286 * lobe(530.9, 0.0613, 0.0322)
-    z = 1.217 * lobe(437.0, 0.0845, 0.0278) + 0.681 * lobe(459.0, 0.0385, 0.0725)
-    xyz = np.array([(spectrum * curve).sum() for curve in (x, y, z)])
+    wavelengths = observer.FIRST + observer.STEP * np.arange(len(observer.XYZ))
+    spectrum = wavelengths**-5.0 / np.expm1(1.4387769e7 / (wavelengths * np.clip(kelvin, *BLACKBODY_RANGE)))
+    xyz = spectrum @ observer.XYZ
     red, green, blue = np.maximum(TO_RGB @ (xyz / xyz[1]), 0.0)
     return float(red), float(green), float(blue)
 

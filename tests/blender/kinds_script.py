@@ -110,6 +110,13 @@ def used(tree: Any, inner: Any, color: tuple[float, float, float] = (0.9, 0.4, 0
 
 
 @case
+def blackbodies() -> None:
+    for number, kelvin in enumerate((900.0, 1800.0, 3000.0, 4500.0, 7000.0, 13000.0)):
+        shader = shown(lambda tree, kelvin=kelvin: make(tree, "ShaderNodeBlackbody", inputs={0: kelvin}))  # type: ignore[misc]
+        inside.plane("Plate", 0.4, shader).location.x = 0.9 * number - 2.25
+
+
+@case
 def groups_within_groups() -> None:
     inner = group(lambda tree, given: make(tree, "ShaderNodeGamma", inputs={0: given.outputs[0], 1: given.outputs[1]}))
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...scene.program import Op, Table
 from .. import observer
-from ..color import TO_RGB
+from ..color import BLACKBODY_RANGE, TO_RGB
 from ..color import blackbody as blackbody_color
 from .arithmetic import mix_inputs
 from .values import (
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from ..sockets import Source
 
 RAMP_ROWS = 256
-BLACKBODY_RANGE = (800.0, 12000.0)  # beyond it the colour stays
 BLACKBODY_ROWS = 1121
 BRIGHTEST_WAVELENGTH = 2.52  # what Blender divides colours by, so that none exceeds 1
 
