@@ -386,7 +386,7 @@ GLIMMER_API glimmer_result glimmer_scene_set_environment_visible(glimmer_scene *
 /* As of an object. */
 GLIMMER_API glimmer_result glimmer_scene_set_environment_light_group(glimmer_scene *scene, uint32_t light_group);
 
-/* Homogeneous, fills all space outside glass. sigma >= 0 per channel; g: Henyey-Greenstein, -1 < g < 1. */
+/* Homogeneous, fills all space outside bodies of glass. sigma >= 0 per channel; g: Henyey-Greenstein, -1 < g < 1. */
 GLIMMER_API glimmer_result glimmer_scene_set_medium(glimmer_scene *scene, const double sigma_a[3],
                                                     const double sigma_s[3], double g);
 

@@ -182,9 +182,79 @@ def glass_without_shadows() -> None:
     inside.plane(material=material("ShaderNodeBsdfDiffuse"))
     pane = inside.plane("Pane", 1.0, surface(shader, mixed.outputs[0]))
     pane.location = (0.0, 0.0, 1.0)
-    # A pane without a back differs from Cycles by .44, with shadows or without: probably by a factor of 1 / ior^2.
-    pane.modifiers.new("Thickness", "SOLIDIFY").thickness = 0.1
     inside.lamp("SUN", (0.0, 0.0, 5.0), energy=2.0, angle=0.0)
+
+
+def glass(ior: float = 1.45, roughness: float = 0.0) -> Any:
+    return inside.material("ShaderNodeBsdfGlass", "GGX", IOR=ior, Roughness=roughness)
+
+
+def sheet(height: float, shader: Any) -> Any:
+    result = inside.plane("Sheet", 20.0, shader)
+    result.location = (0.0, 0.0, height)
+    return result
+
+
+@case
+def sheets_of_glass() -> None:
+    """Two, the lower one of which is rough, over a floor that shines: each is met from air."""
+    inside.plane(material=material())
+    sheet(0.5, glass(1.45, 0.2))
+    sheet(1.0, glass(1.6))
+
+
+@case
+def principled_sheet() -> None:
+    shader = inside.material("ShaderNodeBsdfPrincipled", Base_Color=(0.8, 0.9, 0.7, 1.0), Roughness=0.0, IOR=1.33)
+    inputs = shader.node_tree.nodes["Principled BSDF"].inputs
+    (inputs.get("Transmission Weight") or inputs["Transmission"]).default_value = 1.0
+    inside.plane(material=material())
+    sheet(0.5, shader)
+
+
+@case
+def sheet_from_behind() -> None:
+    inside.plane(material=material())
+    sheet(0.5, glass()).data.flip_normals()
+
+
+@case
+def light_under_water() -> None:
+    """And the surface through a ball of glass."""
+    inside.ball("Lamp", material(), (0.0, 1.0, 0.5), 16).scale = (0.5, 0.5, 0.5)
+    ball = inside.ball("Ball", glass(1.5), (0.0, -1.0, 1.5), 16)
+    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
+    sheet(1.5, glass(1.33))
+
+
+@case
+def camera_under_water() -> None:
+    inside.ball("Lamp", material(), (0.0, 1.0, 6.0), 16)
+    sheet(5.5, glass(1.33))
+    bpy.context.scene.camera.rotation_euler = (1.7, 0.0, 0.0)
+
+
+@case
+def bowl_of_glass() -> None:
+    """Without a thickness, which is no body to be in; before a ball that is one."""
+    bowl = inside.ball("Bowl", glass(), segments=16)
+    mesh = bmesh.new()
+    mesh.from_mesh(bowl.data)
+    bmesh.ops.delete(mesh, geom=[v for v in mesh.verts if v.co.z > 0.5], context="VERTS")
+    mesh.to_mesh(bowl.data)
+    mesh.free()
+    bowl.data.polygons.foreach_set("use_smooth", [False] * len(bowl.data.polygons))
+    inside.plane(material=material())
+    ball = inside.ball("Ball", glass(), (0.0, 1.5, 0.6), 16)
+    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
+    ball.scale = (0.5, 0.5, 0.5)
+
+
+@case
+def glass_around_a_light() -> None:
+    ball = inside.ball("Ball", glass(), segments=16)
+    ball.data.polygons.foreach_set("use_smooth", [False] * len(ball.data.polygons))
+    inside.ball("Lamp", material(), segments=16).scale = (0.6, 0.6, 0.6)
 
 
 @case

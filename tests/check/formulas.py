@@ -77,7 +77,8 @@ def fresnel_at_shell(b: float, radius: float, before: float, beyond: float) -> f
 
 def radiance_in_nested_balls(outer: float, inner: float, samples: int, seed: int = 1) -> tuple[float, float]:
     """In the middle of a ball of radius 1 and index `inner` within one of radius 3 and index `outer`, under a sky of 1,
-    and its standard error: photons are followed from outside, which know flux alone and nothing of n^2. Fluence is the
+    and its standard error: photons are followed from outside, which know flux alone and nothing of n^2. (The engine's
+    own radiance, which refraction keeps, is this over inner^2.) Fluence is the
     length of their ways through a small ball over its volume."""
     rng = np.random.default_rng(seed)
     widest = outer  # what comes in with a larger b never reaches the inner ball

@@ -95,7 +95,7 @@ def cases() -> list[Case]:
             result.append(picture(f"glass {shape} of index {ior:g}", partial(ball, d.Glass(ior), shape), 1))
     result += [
         picture("nested glass, 1.5 around 10 around 1.0001", nested, 1, within=0.03, quick=True),
-        picture("camera in nested glass of index 2.4", in_nested_glass, 2.4**2, within=0.03, quick=True),
+        picture("camera in nested glass of index 2.4", in_nested_glass, 1, within=0.03, quick=True),
         picture("white plates face to face, 0.1 of their size apart", lambda: facing_plates(0.2), 1, quick=True),
         picture("white plates face to face, 0.01 of their size apart", lambda: facing_plates(0.02), 1),
         picture(

@@ -73,7 +73,7 @@ def test_fresnel_and_slab(degrees: float) -> None:
 
 
 def test_nested_glass() -> None:
-    """n^2 of the innermost ball, whatever is around it: by photons."""
+    """What is 1 over n^2 everywhere, whatever is around the innermost ball: by photons."""
     mean, error = formulas.radiance_in_nested_balls(1.5, 2.4, 20_000)
     assert error < 0.01 * mean
     assert abs(mean - 2.4**2) < SIGMAS * error

@@ -14,7 +14,7 @@ from tests.engine.probe.bsdf import SMOOTH, TRANSMITTED, Lobe
 from tests.engine.probe.call import Array
 from tests.engine.significance import ROUNDING, Family, histogram, relative_error
 from tests.engine.test_bsdf import direction, turn
-from tests.engine.test_transmission import WHITE, glass, integrals, largest_value, sphere
+from tests.engine.test_transmission import TRANSLUCENT, WHITE, glass, integrals, largest_value, sphere
 from tests.render.closed_forms import ggx_albedo
 
 family = Family(size=80)
@@ -83,10 +83,18 @@ def grid() -> tuple[Array, float]:
     return sphere(z.ravel(), phi.ravel()), 4 * np.pi / (rows * columns)
 
 
-@pytest.mark.parametrize("name", [name for name in CASES if name not in (*RECIPROCAL, "plastic")])
+# What refracts: of it f is not the same from both sides. With what passes light whatever the index beside it, too.
+BOUNDARIES: dict[str, tuple[list[Lobe], float]] = {
+    "into glass": ([glass(0.5)], 1.5),
+    "out of glass": ([glass(0.5)], 1 / 1.5),
+    "milk": ([glass(0.5, weight=0.5), replace(TRANSLUCENT, weight=0.5)], 1.5),
+}
+
+
+@pytest.mark.parametrize("name", [*(name for name in CASES if name not in (*RECIPROCAL, "plastic")), *BOUNDARIES])
 def test_weights_from_lights(name: str) -> None:
     """Light that comes from one direction leaves by f as it is seen from each of the others, not as it is sampled."""
-    lobes, eta = CASES[name]
+    lobes, eta = (CASES | BOUNDARIES)[name]
     incoming, mu = direction(0.5), 0.5
     u_lobe, u = sampling.uniform(seed(name, mu) + 2, N)[:, 0], sampling.uniform(seed(name, mu) + 3, N)
     weights = bsdf.adjoint_weights(lobes, incoming, u_lobe, u, eta)[:, 0]

@@ -88,6 +88,14 @@ def hidden_from_the_camera_in_fog() -> Builder:
     return lamps_in_fog().hide(d.EVERY_RAY & ~d.Rays.CAMERA)
 
 
+def pond(water: d.Material, camera_height: float = 2) -> Builder:
+    """A sheet of water over a floor, fog in and above it, a moon above, one beneath and one in a glass ball."""
+    scene = Builder(camera((0, -4, camera_height), (0, 4, 0.7), 60), 32, 24, medium=d.Medium(grey(0.02), grey(0.1)))
+    scene.mesh(floor(1, 20), water).mesh(floor(-0.5, 8, (0, 4)), d.Lambert(grey(0.6)))
+    scene.sphere((-2, 6, 3), 0.8, d.Light((5, 2, 1))).sphere((2, 4, 0.2), 0.3, d.Light((1, 2, 9)))
+    return scene.sphere((0, 4, 1.8), 0.6, d.Glass(1.7)).sphere((0, 4, 1.8), 0.25, d.Light((1, 9, 2)))
+
+
 def glass_between_lights() -> Builder:
     """Two plates that shine, far apart: what is in their middle is not what is around them."""
     scene = Builder(camera((0, -4, 1), (0, 4, 0.5), 60), 32, 24, medium=d.Medium(grey(0.02), grey(0.15)))
@@ -319,6 +327,11 @@ SCENES: dict[str, Callable[[], Builder]] = {
     "glints and glass": glints_and_glass,
     "channels far apart": channels_apart,
     "glass between lights": glass_between_lights,
+    "pond": lambda: pond(d.Glass(1.5)),
+    "rough pond": lambda: pond(d.Glass(1.5, 0.3)),
+    "milky pond": lambda: pond(d.Mix(0.4, d.Glass(1.5, 0.4, facets="multiple"), d.Translucent(WHITE))),
+    "clear pond": lambda: pond(d.Mix(0.4, d.Glass(1.5), d.Transparent(WHITE))),
+    "in the pond": lambda: pond(d.Glass(1.5), 0.4),
     "point over a mirror": point_over_mirror,
     "far beyond a screen": fog_far_beyond_a_screen,
     "haze box": lambda: haze_box(camera((0, -4, 4), (0, 8, 1.5), 60)),

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mirrors and glass: what a chain of them leaves of a light is a product or a geometric series."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -77,9 +79,9 @@ def test_total_internal_reflection(integrator: str, degrees: float) -> None:
     if degrees > 41.9:
         check_radiance(Measurement(scene.done(), integrator), inside, within=0)
         return
-    # Below it, by the reversibility of light: R is that of the outer side, radiance there counts 1.5^2.
+    # Below it, by the reversibility of light: R is that of the outer side.
     r = exact.fresnel(np.sqrt(1 - (1.5 * np.sin(angle)) ** 2), 1.5)
-    check_radiance(Measurement(scene.done(), integrator), r * inside + (1 - r) * 2.25, within=0.02, rounding=1e-3)
+    check_radiance(Measurement(scene.done(), integrator), r * inside + (1 - r), within=0.02, rounding=1e-3)
 
 
 def test_nested_glass_meets_the_right_index(integrator: str) -> None:
@@ -91,11 +93,70 @@ def test_nested_glass_meets_the_right_index(integrator: str) -> None:
 
 
 def test_light_within_glass(integrator: str) -> None:
-    """Straight out of glass: (1 - R) / ior^2 of it; a black plate behind takes what is reflected."""
+    """Straight out of glass: (1 - R) of it; a black plate behind takes what is reflected."""
     scene = Builder(radiometer((0, 0, 5), (0, 0, 0))).mesh(box((-30, -29, -6), (31, 30, 0)), d.Glass(1.5))
     scene.mesh(quad((0.1, 0, -3), (20, 0, 0), (0, 20, 0)), d.Light(WHITE))
-    expected = (1 - exact.fresnel(1, 1.5)) / 2.25
-    check_radiance(Measurement(scene.done(), integrator), expected, within=0.01)
+    check_radiance(Measurement(scene.done(), integrator), 1 - exact.fresnel(1, 1.5), within=0.01)
+
+
+BEFORE, BEHIND = np.array([1, 0, 20.0]), np.array([1, 1, 1.0])  # what is reflected is little, and counts
+
+
+def between_lights(scene: Builder, side: int = 1) -> Builder:
+    """Seen from above or, at a side of -1, from beneath."""
+    return scene.mesh(floor(-40 * side, 400), d.Light(tuple(BEHIND))).mesh(
+        floor(40 * side, 400), d.Light(tuple(BEFORE))
+    )
+
+
+@pytest.mark.parametrize("ior", [1.33, 1.5, 1 / 1.3])
+@pytest.mark.parametrize("cosine", [1, 0.7])
+def test_sheet(integrator: str, cosine: float, ior: float) -> None:
+    """A single face of glass, from its front and, along the refracted ray, from its back: what is behind it keeps its
+    radiance, but for what is reflected, which is the same from both sides."""
+    r = exact.fresnel(cosine, ior)
+    sine = np.sqrt(1 - cosine**2)
+    for side, s in ((1, sine), (-1, sine / ior)):
+        eye = (0, -5 * s, 5 * side * np.sqrt(1 - s**2))
+        scene = between_lights(Builder(radiometer(eye, (0, 0, 0))).mesh(floor(0, 30), d.Glass(ior)), side)
+        check_radiance(Measurement(scene.done(), integrator), r * BEFORE + (1 - r) * BEHIND, within=0.03)
+
+
+def test_sheets_in_a_row(integrator: str) -> None:
+    """Each of two sheets is met from air: T = (1 - R1) (1 - R2) / (1 - R1 R2) of what is behind."""
+    first, second, cosine = 1.5, 1.7, 0.5
+    sine = np.sqrt(1 - cosine**2)
+    scene = Builder(radiometer((0, -5 * sine, 5 * cosine), (0, 0, 0))).mesh(floor(0, 30), d.Glass(first))
+    between_lights(scene.mesh(floor(-1, 30), d.Glass(second)))
+    r1, r2 = exact.fresnel(cosine, first), exact.fresnel(np.sqrt(1 - (sine / first) ** 2), second)
+    through = (1 - r1) * (1 - r2) / (1 - r1 * r2)
+    expected = through * BEHIND + (1 - through) * BEFORE
+    check_radiance(Measurement(scene.done(), integrator), expected, within=0.02)
+
+
+def faces_apart(mesh: d.Mesh) -> d.Mesh:
+    """The same with vertices of their own for each triangle."""
+    return d.Mesh(
+        mesh.name, mesh.vertices[mesh.triangles.ravel()], np.arange(mesh.triangles.size, dtype=np.uint32).reshape(-1, 3)
+    )
+
+
+@pytest.mark.parametrize("shape", ["whole", "apart", "without a floor", "inside out"])
+def test_what_encloses_a_body(integrator: str, shape: str) -> None:
+    """Glass of 1.5 within a box of it is not there, but by a box that is not closed, or whose normals point inward,
+    each of its faces is met from air."""
+    around = box((-30, -29, -6), (31, 30, 0))
+    around = {
+        "whole": around,
+        "apart": faces_apart(around),
+        "without a floor": replace(around, triangles=around.triangles[2:]),
+        "inside out": replace(around, triangles=around.triangles[:, ::-1]),
+    }[shape]
+    scene = Builder(radiometer((0, 0, 5), (0, 0, 0))).mesh(around, d.Glass(1.5))
+    scene.mesh(box((-10, -9, -4), (11, 10, -2)), d.Glass(1.5)).mesh(floor(-40, 400), d.Light(WHITE))
+    faces = {"whole": 2, "apart": 2, "without a floor": 3, "inside out": 4}[shape]
+    ratio = exact.fresnel(1, 1.5) / (1 - exact.fresnel(1, 1.5))  # of what a face reflects to what it lets pass
+    check_radiance(Measurement(scene.done(), integrator), 1 / (1 + faces * ratio), within=0.02)
 
 
 def test_black_surfaces(integrator: str) -> None:

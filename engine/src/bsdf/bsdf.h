@@ -269,11 +269,22 @@ inline std::optional<BsdfSample> sample(const Bsdf &bsdf, const Vec3f &wo, float
     return BsdfSample{s->wi, eval(bsdf, wo, s->wi) / density, density, false, s->transmitted, s->diffuse, s->lobe};
 }
 
+/// Whether some light passes to the other side in all directions.
+inline bool is_translucent(const Bsdf &bsdf) {
+    for (const WeightedLobe &l : bsdf)
+        if (std::holds_alternative<Translucent>(l.lobe))
+            return true;
+    return false;
+}
+
 /// The weight of a sample drawn for wo where light comes from wo and leaves to s.wi, about the same normal: f that is
-/// seen from s.wi times |cos| of s.wi over the density.
+/// seen from s.wi times |cos| of s.wi over the density. Of what is refracted, and of that alone, the two sides see f
+/// by eta^2 apart.
 inline Rgb adjoint_weight(const Bsdf &bsdf, const Vec3f &wo, const BsdfSample &s) {
-    if (is_reciprocal(bsdf))
-        return s.weight;
+    const bool refracted = s.transmitted && std::holds_alternative<Dielectric>(bsdf[s.lobe].lobe);
+    const float scale = refracted ? 1 / (bsdf.eta * bsdf.eta) : 1;
+    if (is_reciprocal(bsdf) && (bsdf.eta == 1 || !s.transmitted || s.specular || !is_translucent(bsdf)))
+        return s.weight * scale;
     Bsdf there = bsdf; // as it is seen from s.wi
     Vec3f out = s.wi, in = wo;
     if (s.transmitted) {
@@ -283,7 +294,7 @@ inline Rgb adjoint_weight(const Bsdf &bsdf, const Vec3f &wo, const BsdfSample &s
     }
     if (s.specular) {
         const float seen = uncovered(bsdf, bsdf[s.lobe], wo);
-        return seen > 0 ? s.weight * (uncovered(there, bsdf[s.lobe], out) / seen) : Rgb();
+        return seen > 0 ? s.weight * (scale * uncovered(there, bsdf[s.lobe], out) / seen) : Rgb();
     }
     return eval(there, out, in) * (out.z / std::abs(in.z) / s.pdf);
 }

@@ -10,9 +10,9 @@
 // Some lobes are not reciprocal: what they keep of the light depends on wo alone. Then wo is the side of the camera, in
 // eval and in the weights of samples; paths from lights see to that (adjoint_weight in bsdf/bsdf.h).
 //
-// At the boundary of a dielectric eta is the index of refraction on the other side over that on the side of wo. Across
-// it radiance / n^2 is what is conserved, and values and weights are those of that quantity: a path that carries
-// radiance scales what it transmits by 1 / eta^2, one that carries flux scales nothing.
+// At the boundary of a dielectric eta is the index of refraction on the other side over that on the side of wo. What is
+// refracted keeps its radiance (docs/method.md, section 19): paths from the camera scale nothing, paths from lights
+// what they refract by 1 / eta^2 (adjoint_weight).
 #pragma once
 
 #include "math/vec.h"

@@ -82,32 +82,6 @@ bool enters_through(const Instance &instance, uint32_t triangle, const Vec3f &di
 constexpr size_t kMostConvexTriangles = 4096; // whose planes are tested against all corners
 constexpr double kConvexRounding = 1e-5;      // of the mesh's radius: how far a corner may stand out
 
-/// Corners by place: meshes have several vertices at one.
-std::vector<std::array<uint32_t, 3>> triangles_by_place(const Mesh &mesh) {
-    std::map<std::array<float, 3>, uint32_t> numbers;
-    std::vector<std::array<uint32_t, 3>> triangles;
-    for (const auto &t : mesh.triangles) {
-        auto &out = triangles.emplace_back();
-        for (size_t k = 0; k < 3; ++k) {
-            const Vec3f &v = mesh.vertices[t[k]];
-            out[k] = numbers.emplace(std::array{v.x, v.y, v.z}, uint32_t(numbers.size())).first->second;
-        }
-    }
-    return triangles;
-}
-
-/// Whether every edge has a triangle on either side.
-bool is_closed(const Mesh &mesh) {
-    std::map<std::pair<uint32_t, uint32_t>, int> edges;
-    for (const auto &t : triangles_by_place(mesh))
-        for (size_t k = 0; k < 3; ++k)
-            ++edges[{t[k], t[(k + 1) % 3]}];
-    return std::ranges::all_of(edges, [&](const auto &edge) {
-        const auto opposite = edges.find({edge.first.second, edge.first.first});
-        return edge.second == 1 && opposite != edges.end();
-    });
-}
-
 bool is_convex(const Mesh &mesh) {
     if (mesh.triangles.size() < 4 || mesh.triangles.size() > kMostConvexTriangles)
         return false;
@@ -120,7 +94,7 @@ bool is_convex(const Mesh &mesh) {
                 if (dot(normal, Vec3d(mesh.vertices[corner]) - a) > most)
                     return false;
     }
-    return is_closed(mesh);
+    return mesh.is_closed();
 }
 
 constexpr size_t kMostPlanes = 24; // beyond which a BVH is faster

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,8 +49,13 @@ class Mesh {
     /// Error.
     Bvh bvh(const std::shared_ptr<const EmbreeDevice> &device) const;
 
+    /// Whether it has an inside: every edge has as many triangles on either side, and the normals point outward. Found
+    /// out at the first call.
+    bool is_closed() const;
+
   private:
     mutable std::mutex mutex_; ///< of everything below
+    mutable std::optional<bool> closed_;
     mutable std::shared_ptr<const EmbreeDevice> device_;
     mutable Bvh bvh_;
     mutable size_t bvh_bytes_ = 0;

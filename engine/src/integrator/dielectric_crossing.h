@@ -19,17 +19,21 @@ struct DielectricCrossing {
     Frame frame;
     Vec3f outgoing; ///< `back` in the frame
 
-    /// within: what bodies are filled with.
-    DielectricCrossing(const Interaction &surface, float interior_ior, const Vec3f &direction,
-                       const InteriorStack &around, const Medium *within)
+    /// A sheet has no inside to be in: each of its faces is met alone, as all are in Cycles, with air before it.
+    DielectricCrossing(const Scene &scene, const Interaction &surface, float interior_ior, const Vec3f &direction,
+                       const InteriorStack &around)
         : beyond(around), back(-direction), frame(surface.shading_normal) {
         const bool entering = dot(back, surface.geometric_normal) > 0;
-        if (entering)
-            beyond.enter(surface.body, interior_ior, within);
-        else
-            beyond.leave(surface.body);
-        // A ray that leaves a body which it never entered (an open mesh) comes from that body's index.
-        eta = beyond.ior() / (entering || !around.empty() ? around.ior() : interior_ior);
+        if (scene.is_sheet(surface)) {
+            eta = entering ? interior_ior : 1 / interior_ior;
+        } else {
+            if (entering)
+                beyond.enter(surface.body, interior_ior, scene.within_glass());
+            else
+                beyond.leave(surface.body);
+            // A ray that leaves a body which it never entered comes from that body's index.
+            eta = beyond.ior() / (entering || !around.empty() ? around.ior() : interior_ior);
+        }
         const float side = entering ? 1.0f : -1.0f;
         geometric = surface.geometric_normal * side;
         shading = surface.shading_normal * side;

@@ -30,7 +30,7 @@ InteriorStack dielectrics_at(const Scene &scene, const Vec3f &x, ShutterTime tim
             break;
         const Interaction surface = scene.interaction(ray, *hit);
         const Material &material = scene.materials[surface.material];
-        if (material.interior_ior > 0) {
+        if (material.interior_ior > 0 && !scene.is_sheet(surface)) {
             if (dot(ray.direction, surface.geometric_normal) < 0)
                 entered.push_back(surface.body);
             else if (auto it = std::find(entered.begin(), entered.end(), surface.body); it != entered.end())

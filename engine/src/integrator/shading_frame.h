@@ -59,7 +59,7 @@ inline Vec3f normal_towards(const Vec3f &shading, const Vec3f &geometric, const 
 
 /// The factor that flux has over radiance where a mirror or dielectric, shaded about n, sends it from wi towards wo
 /// (both away from the surface): |wi.n| / |wi.ng| * |wo.ng| / |wo.n| (Veach 1997, section 5.3), without the 1/eta^2 of
-/// radiance that is refracted. wo_n: wo.n as it was sampled in the frame of n.
+/// flux that is refracted (adjoint_weight). wo_n: wo.n as it was sampled in the frame of n.
 inline float scale_of_flux(const Vec3f &n, const Vec3f &geometric, const Vec3f &wi, const Vec3f &wo, float wo_n) {
     return std::abs((dot(wi, n) / dot(wi, geometric)) * (dot(wo, geometric) / std::max(wo_n, 1e-7f)));
 }

@@ -194,6 +194,30 @@ void SceneBuilder::build_geometry() {
                                            std::move(visible), threads_);
 }
 
+/// Whether the object is of glass and encloses no body by it.
+bool SceneBuilder::is_sheet(const ObjectDescription &object, const Mesh &mesh) const {
+    bool glass = false, passes_elsewhere = false;
+    for (uint32_t m : object.materials) {
+        const Material &material = scene_.materials[m];
+        glass |= material.interior_ior > 0;
+        passes_elsewhere |= !(material.interior_ior > 0) && (material.bounds.transmits || material.bounds.transparent);
+    }
+    return glass && (passes_elsewhere || !mesh.is_closed());
+}
+
+void SceneBuilder::find_sheets() {
+    if (!scene_.has_dielectrics)
+        return;
+    const auto &instances = scene_.accel->instances();
+    std::vector<bool> sheets;
+    for (size_t i = 0; i < instances.size(); ++i) // those of one object stand in a row
+        sheets.push_back(i > 0 && instances[i].object == instances[i - 1].object
+                             ? sheets.back()
+                             : is_sheet(description_.objects[object_places_[i].object], *instances[i].mesh));
+    if (std::ranges::find(sheets, true) != sheets.end())
+        scene_.sheets = std::move(sheets);
+}
+
 Interaction Scene::interaction(const Ray &ray, const Hit &hit) const {
     Interaction at;
     if (hit.instance == kNone) {

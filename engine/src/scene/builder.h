@@ -30,6 +30,7 @@ class SceneBuilder {
     void build_geometry();
     void build_media();   // after the geometry, which says what encloses them
     void build_shaders(); // materials that vary; before the lights, which look at their emission
+    void find_sheets();   // after the materials that vary, some of which may be glass
     void build_lights();
     void build_bounds();
     void list_left_out();
@@ -51,6 +52,7 @@ class SceneBuilder {
     /// for a ray to be carried there. mesh: the object's, or a part of it.
     std::optional<Instance> place(const ObjectDescription &object, size_t i, const Mesh &mesh,
                                   std::vector<InstanceMotion> &motions);
+    bool is_sheet(const ObjectDescription &object, const Mesh &mesh) const;
     bool may_shine_anywhere(const ObjectDescription &object) const;
     /// Notes that the object's instances, or the spheres, enclose a medium.
     void add_boundaries(const ObjectDescription &object);

@@ -80,6 +80,7 @@ Scene::Scene(const SceneDescription &description, uint32_t threads) {
     builder.build_geometry();
     builder.build_media();
     builder.build_shaders();
+    builder.find_sheets();
     builder.build_lights();
     builder.build_bounds();
     builder.list_left_out();

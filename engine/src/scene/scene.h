@@ -64,6 +64,11 @@ class Scene {
             return accel->instances()[hit.instance].holdout;
         return !sphere_holdouts.empty() && sphere_holdouts[hit.primitive];
     }
+    /// Whether the surface is glass around no body: of a mesh that is not closed, or that light may pass elsewhere.
+    bool is_sheet(const Interaction &surface) const {
+        return !sheets.empty() && surface.instance != kNone && sheets[surface.instance];
+    }
+    std::vector<bool> sheets;           ///< by instance; empty: there are none
     std::optional<Medium> medium;       ///< around all bodies of glass
     std::optional<Medium> glass_medium; ///< in them: what their interiors hold, without what fills all space
     /// The same, or null.

@@ -20,7 +20,7 @@ inline constexpr std::array kMaterials = std::to_array<glimmer_material_info_t>(
     {"lambert", 1, "a diffuse surface"},
     {"mirror", 1, "a perfect mirror"},
     {"conductor", 1, "a rough metal: GGX, of a complex index of refraction or of two reflectances"},
-    {"glass", 1, "the boundary of a dielectric: a closed surface; nested glass by containment"},
+    {"glass", 1, "the boundary of a dielectric: of a body, if closed; nested glass by containment"},
     {"report_metal", 1, "the student report's sum of a diffuse and a metallic lobe as printed: not energy conserving"},
     {"mix", 1, "a share of one material, the rest of another"},
     {"light", 1, "an opaque black surface of constant outgoing radiance on both sides"},

@@ -72,8 +72,8 @@ template <KernelFeatures F>
 struct PathState {
     Ray ray;
     Rgb beta{1}; ///< throughput
-    /// The factor of beta that roulette ignores (etaScale of pbrt): absorption before the first scattering, the choice
-    /// between branches, and what dielectrics scale radiance by.
+    /// The factor of beta that roulette ignores (etaScale of pbrt): absorption before the first scattering, and the
+    /// choice between branches.
     float rr_scale = 1;
     [[no_unique_address]] std::conditional_t<F.meets_lights(), PreviousVertex<F>, Absent<1>> previous;
     uint32_t depth = 0;   ///< scattering vertices so far

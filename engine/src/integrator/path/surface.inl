@@ -31,8 +31,8 @@ auto PathSample<F>::orient(const State &state, const Interaction &surface, const
     -> std::optional<OrientedSurface> {
     if constexpr (F.transmission)
         if (shading.interior_ior > 0) {
-            const DielectricCrossing crossing(surface, shading.interior_ior, state.ray.direction, state.interior,
-                                              scene().within_glass());
+            const DielectricCrossing crossing(scene(), surface, shading.interior_ior, state.ray.direction,
+                                              state.interior);
             return OrientedSurface{crossing.frame, crossing.geometric, crossing.outgoing, crossing.eta,
                                    true,           crossing.beyond};
         }
@@ -178,19 +178,14 @@ float PathSample<F>::vertex_fraction(const OrientedSurface &at, const Rgb &f_cos
 template <KernelFeatures F>
 void PathSample<F>::cross_boundary(State &state, const OrientedSurface &at) {
     if constexpr (F.transmission)
-        if (at.bounds_interior) {
-            const float scale = 1 / (at.eta * at.eta);
-            state.beta *= scale;
-            state.rr_scale *= scale;
+        if (at.bounds_interior)
             state.interior = at.beyond;
-        }
 }
 
 template <KernelFeatures F>
 Rgb PathSample<F>::transmittance_beyond(const OrientedSurface &at, const Ray &ray, float distance) {
-    const Rgb scale(1 / (at.eta * at.eta));
     const Medium *medium = F.medium ? at.beyond.medium(scene().outside()) : nullptr;
-    return medium ? transmittance(*medium, ray, distance) * scale : scale;
+    return medium ? transmittance(*medium, ray, distance) : Rgb(1);
 }
 
 template <KernelFeatures F>

@@ -22,9 +22,9 @@ namespace glimmer {
 
 namespace {
 
-/// One light subpath. It carries flux, so refraction scales nothing. Light from a point light that has met only mirrors
-/// and dielectrics is left out: no camera path can meet it, so nothing would compensate what bounded connections take
-/// away of it.
+/// One light subpath. It carries the adjoint of radiance (adjoint_weight). Light from a point light that has met only
+/// mirrors and dielectrics is left out: no camera path can meet it, so nothing would compensate what bounded
+/// connections take away of it.
 class LightSubpath {
   public:
     LightSubpath(const Scene &scene, const ImportanceMap &importance, const VplSettings &settings, Sampler &sampler,
@@ -174,7 +174,7 @@ class LightSubpath {
         Bsdf bsdf = shading.bsdf;
         std::optional<DielectricCrossing> crossing; // of the boundary of a body
         if (shading.interior_ior > 0) {
-            crossing.emplace(surface, shading.interior_ior, path.ray.direction, path.interior, scene_.within_glass());
+            crossing.emplace(scene_, surface, shading.interior_ior, path.ray.direction, path.interior);
             bsdf.eta = crossing->eta;
         }
         if (!(max_value(bsdf) > 0)) // black: a vertex would bring nothing, and no light goes on
@@ -351,8 +351,7 @@ class LightSubpath {
     void cross_dielectric(Branch &path, const Interaction &surface, const Shading &shading) {
         if (path.from_delta || !survives_specular(path))
             return;
-        DielectricCrossing crossing(surface, shading.interior_ior, path.ray.direction, path.interior,
-                                    scene_.within_glass());
+        DielectricCrossing crossing(scene_, surface, shading.interior_ior, path.ray.direction, path.interior);
         const bool bent = !(crossing.shading == crossing.geometric);
         if (bent && crossing.about_shading && crossing.may_leave_beneath_horizon()) {
             const bool on_shading = sampler_.next_1d() < 1 - tuning::kGeometricDielectricShare;
@@ -367,7 +366,7 @@ class LightSubpath {
         const Vec3f direction = crossing.to_world(s->wi);
         if (!crossing.possible(direction, s->transmitted))
             return;
-        path.power *= s->weight;
+        path.power *= adjoint_weight(bsdf, crossing.outgoing, *s);
         if (bent) {
             if (!crossing.holds_backwards(direction, s->transmitted) || !(dot(crossing.back, crossing.geometric) > 0))
                 return;
