@@ -34,6 +34,7 @@ from ..scene.description import (
     Spheres,
 )
 from ..scene.problems import GlimmerError, Notice, Notices, place
+from .bodies import warn_of_bodies_of_glass
 from .dense import warn_of_dense_haze
 from .geometry_instances import GeometryInstances
 from .grids import NO_READER, NoGridsError, box_of, openvdb, read_grids
@@ -213,6 +214,7 @@ class _Source:
         )
         if scene.world is not None:
             warn_of_dense_haze(described, scene.world.name, notices)
+        warn_of_bodies_of_glass(described, scene.world.name if scene.world is not None else "", notices)
         return with_groups(described, self.depsgraph)
 
 
