@@ -25,7 +25,8 @@ facts: dict[str, Any] = {"ticks": [], "started": None, "ended": None}
 def finish() -> None:
     inside.use_format("OPEN_EXR")
     bpy.data.images["Render Result"].save_render(str(OUT / "kept.exr"))
-    (OUT / "facts.json").write_text(json.dumps(facts))
+    (OUT / "written").write_text(json.dumps(facts))
+    (OUT / "written").rename(OUT / "facts.json")  # as a whole: it is waited for
     bpy.ops.wm.quit_blender()
 
 

@@ -58,6 +58,7 @@ def test_mean(world: Scene) -> None:
     check_mean(means, [SHARE * RADIANCE] * 2, within=0.05, what="bright plates")
 
 
+@pytest.mark.full
 def test_standard_error(world: Scene) -> None:
     """In the mean its square is the squared error."""
     variance = SHARE * (1 - SHARE) * RADIANCE**2 / SAMPLES

@@ -17,7 +17,7 @@ def furnace(sigma_s: d.Rgb, g: float) -> Builder:
     return Builder(view, medium=d.Medium(BLACK, sigma_s, g)).sphere((0, 0, 0), 2, d.Light(WHITE))
 
 
-@pytest.mark.parametrize("g", [-0.7, 0, 0.7])
+@pytest.mark.parametrize("g", [-0.7, 0, pytest.param(0.7, marks=pytest.mark.full)])
 @pytest.mark.parametrize("sigma", [0.01, 0.3, 3])
 def test_grey(integrator: str, sigma: float, g: float) -> None:
     # In thick isotropic fog a pass's light paths are few, and shared by all pixels.
@@ -25,7 +25,7 @@ def test_grey(integrator: str, sigma: float, g: float) -> None:
     check_radiance(Measurement(furnace(grey(sigma), g).done(), integrator), 1, within=within)
 
 
-@pytest.mark.parametrize("g", [-0.7, 0, 0.7])
+@pytest.mark.parametrize("g", [-0.7, 0, pytest.param(0.7, marks=pytest.mark.full)])
 def test_coloured(integrator: str, g: float) -> None:
     """Channels that differ by a hundred share their paths."""
     check_radiance(Measurement(furnace((0.02, 0.2, 2), g).done(), integrator), 1, within=0.05)

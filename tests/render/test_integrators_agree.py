@@ -340,11 +340,16 @@ SCENES: dict[str, Callable[[], Builder]] = {
 }
 
 
-# Relatives of "light by way of metal" that take long.
+# Relatives of scenes that stay, and take long.
 LONG = (
     "light by way of metal, in a mirror",
     "light by way of metal, forward",
+    "light by way of metal, in parallel rays",
     *(f"metal, {name}" for name in (*PANORAMAS, "fisheye, aperture")),
+    "glints in fog, through a lens",
+    "rough pond",
+    "clear pond",
+    "in the pond",
 )
 
 
@@ -389,7 +394,10 @@ def test_switches_are_all_there() -> None:
     assert names == ["path", "baseline", *(f"path-no-{switch}" for switch in SWITCHES)]
 
 
-@pytest.mark.parametrize("switch", SWITCHES)
+LONG_SWITCHES = ("split", "branches", "guided-choice", "equiangular", "late-roulette")
+
+
+@pytest.mark.parametrize("switch", [pytest.param(s, marks=[pytest.mark.full] * (s in LONG_SWITCHES)) for s in SWITCHES])
 def test_estimators_change_no_mean(switch: str) -> None:
     name = f"path-no-{switch}"
     scene = all_estimators_at_work().done()
@@ -398,8 +406,8 @@ def test_estimators_change_no_mean(switch: str) -> None:
 
 
 def test_where_surfaces_glint() -> None:
-    """The scenes made for it are those where several points of a pixel compete for being lit, and a whole panorama,
-    whose few pixels see much of the floor each."""
+    """The scenes made for it are those where several points of a pixel compete for being lit, a whole panorama, whose
+    few pixels see much of the floor each, and one whose metal is beside black ground."""
     glinting = set()
     for name, build in SCENES.items():
         with rendering(Scene(build().done()), samples=1) as render:
@@ -408,4 +416,4 @@ def test_where_surfaces_glint() -> None:
                 glinting.add(name)
     made_for_it = {"glints", "glints in fog, through a lens", "glints and glass"}
     without_surfaces = "channels far apart"
-    assert glinting == {*made_for_it, "metal, panorama", without_surfaces}
+    assert glinting == {*made_for_it, "metal, panorama", "black ground", without_surfaces}

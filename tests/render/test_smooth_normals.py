@@ -73,7 +73,10 @@ SCENES: dict[str, tuple[Callable[[], Builder], float]] = {
 }
 
 
-@pytest.mark.parametrize("name", SCENES)
+LONG = ("mirror in a mix", "glass from beneath")
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.full] * (name in LONG)) for name in SCENES])
 def test_light_paths_are_adjoint_to_camera_paths(name: str) -> None:
     build, within = SCENES[name]
     scene = build().done()

@@ -109,8 +109,8 @@ def between_lights(scene: Builder, side: int = 1) -> Builder:
     )
 
 
-@pytest.mark.parametrize("ior", [1.33, 1.5, 1 / 1.3])
-@pytest.mark.parametrize("cosine", [1, 0.7])
+@pytest.mark.parametrize("ior", [1.33, pytest.param(1.5, marks=pytest.mark.full), 1 / 1.3])
+@pytest.mark.parametrize("cosine", [pytest.param(1, marks=pytest.mark.full), 0.7])
 def test_sheet(integrator: str, cosine: float, ior: float) -> None:
     """A single face of glass, from its front and, along the refracted ray, from its back: what is behind it keeps its
     radiance, but for what is reflected, which is the same from both sides."""

@@ -51,7 +51,7 @@ def test_merged_standard_error_is_that_of_the_merged_mean(tmp_path: Path) -> Non
     one; so are their own squared standard errors. Their difference, summed over pixels, has mean 0 whatever the
     pixels share: Student's t over independent pairs, whose parts have unequal numbers of samples."""
     pairs, seed = [], 0
-    for _ in range(8):
+    for _ in range(20):
         means, variances = [], []
         for _ in range(2):
             for name, samples in (("a", 4), ("b", 12)):
