@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 # Corner normals that differ by less are one: Blender stores custom normals in 16 bits.
 NORMAL_TOLERANCE = 1e-4
+SMOOTHED_FROM, SMOOTHED_UNTIL = (4, 2), (5, 2)
 
 
 def read(collection: Any, name: str, kind: type[np.generic], components: int = 1) -> NDArray[Any]:
@@ -103,7 +104,7 @@ def export_mesh(
     if _is_smooth_throughout(mesh):
         normals = smooth_normals(vertices, corner_vertices, *_faces(mesh))
         return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), normals, slots_or_none, read_attributes)
-    corner_normals = _corner_normals(mesh, corners)
+    corner_normals = _corner_normals(mesh, corners, vertices, corner_vertices)
     if corner_normals is None:
         return Mesh(name, vertices, corner_vertices[corners].astype(np.uint32), None, slots_or_none, read_attributes)
     source, new_vertex = split_by_normal(corner_vertices, corner_normals)
@@ -172,12 +173,26 @@ def _unit(vectors: Floats) -> Floats:
     return vectors / np.where(lengths > 0.0, lengths, 1.0)
 
 
-def _corner_normals(mesh: bpy.types.Mesh, corners: NDArray[np.int32]) -> Floats | None:
+def _is_smoothed_over_flat_faces(mesh: bpy.types.Mesh) -> bool:
+    """Whether Cycles shades smooth faces as if those beside them which are flat were smooth too."""
+    import bpy
+
+    if mesh.has_custom_normals or not SMOOTHED_FROM <= bpy.app.version < SMOOTHED_UNTIL:
+        return False
+    return not read(mesh.edges, "use_edge_sharp", np.bool_).any()
+
+
+def _corner_normals(
+    mesh: bpy.types.Mesh, corners: NDArray[np.int32], vertices: Floats, corner_vertices: NDArray[np.int32]
+) -> Floats | None:
     """(corners, 3), zero on flat faces; None where all faces are flat."""
     smooth = read(mesh.polygons, "use_smooth", np.bool_)
     if not smooth.any() and not mesh.has_custom_normals:
         return None
-    normals = read(mesh.loops, "normal", np.float32, 3)
+    if _is_smoothed_over_flat_faces(mesh):
+        normals = smooth_normals(vertices, corner_vertices, *_faces(mesh))[corner_vertices]
+    else:
+        normals = read(mesh.loops, "normal", np.float32, 3)
     if not mesh.has_custom_normals and not smooth.all():
         polygon_of_triangle = read(mesh.loop_triangles, "polygon_index", np.int32)
         normals[corners[~smooth[polygon_of_triangle]].reshape(-1)] = 0.0

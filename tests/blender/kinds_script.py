@@ -416,6 +416,15 @@ def scales() -> None:
 
 
 @case
+def flat_faces_beside_smooth_ones() -> None:
+    for x, edges in ((-1.2, 0), (1.2, 20)):
+        item = inside.ball("Ball", normals(), (x, 0.0, 1.0), segments=12)
+        item.data.polygons.foreach_set("use_smooth", [i % 3 > 0 for i in range(len(item.data.polygons))])
+        for edge in item.data.edges[:edges]:
+            edge.use_edge_sharp = True
+
+
+@case
 def normals_that_face_away() -> None:
     item = inside.ball("Ball", normals(), segments=12)
     if hasattr(item.data, "use_auto_smooth"):

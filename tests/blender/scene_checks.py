@@ -75,6 +75,7 @@ def mesh(data: Any) -> dict[str, Any]:
         "faces": [list(polygon.vertices) for polygon in data.polygons],
         "slots": [polygon.material_index for polygon in data.polygons],
         "smooth": [polygon.use_smooth for polygon in data.polygons],
+        "sharp": [edge.use_edge_sharp for edge in data.edges],
         "materials": [material and material.name for material in data.materials],
         "attributes": attributes,
     }
