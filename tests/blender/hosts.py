@@ -6,8 +6,14 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[2]
 HOSTS = ("blender", "bpy", "newest")  # the executable, the pinned bpy module, and the newest one there is
+# For modules that take minutes a host: the pinned module is left to --full.
+OLDEST_AND_NEWEST = pytest.mark.parametrize(
+    "host", [pytest.param(kind, marks=[pytest.mark.full] * (kind == "bpy")) for kind in HOSTS], indirect=True
+)
 
 
 def environment(profile: Path, library: Path, blender: Path | None) -> dict[str, str]:

@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hosts import Host
+from hosts import OLDEST_AND_NEWEST, Host
 from numpy.typing import NDArray
 from scipy import stats
+
+pytestmark = OLDEST_AND_NEWEST
 
 LEVEL = 1e-3  # of a false alarm in the whole module on a host
 BLOCKS = (2, 3)  # down and across

@@ -5,9 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hosts import Host
+from hosts import OLDEST_AND_NEWEST, Host
 from numpy.typing import NDArray
 from test_render import channels
+
+pytestmark = OLDEST_AND_NEWEST
 
 SCRIPT = Path(__file__).with_name("panorama_script.py")
 KINDS = 8 + 12
