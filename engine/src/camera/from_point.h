@@ -18,8 +18,8 @@ inline PointOnRay sample_by_angle(const Ray &ray, const RayInterval &seen, float
     return {from_foot + foot, angle.pdf(from_foot)};
 }
 
-/// Unit direction and radians: the cone in which a sphere is seen, wider by `margin` half widths and by its blur. Nothing
-/// where the camera is within it.
+/// Unit direction and radians: the cone in which a sphere is seen, wider by `margin` half widths and by its blur.
+/// Nothing where the camera is within it.
 inline std::optional<Silhouette> cone_about_sphere(const CameraBase &camera, const Vec3f &center, float radius,
                                                    float margin) {
     const float away = length(center);

@@ -13,10 +13,10 @@
 
 namespace glimmer {
 
-// Light from afar is aimed at bounded media. Rays that start as the light shines would seldom meet a small cloud, or the
-// ground close to it; those that did would leave vertices of thousands of times the power of others, bright spots in it.
-// So they are aimed at the media alone, at all that there is, and at regions between the two that grow by the same
-// factor, as what lies beside the media lights them the more the nearer it is.
+// Light from afar is aimed at bounded media. Rays that start as the light shines would seldom meet a small cloud, or
+// the ground close to it; those that did would leave vertices of thousands of times the power of others, bright spots
+// in it. So they are aimed at the media alone, at all that there is, and at regions between the two that grow by the
+// same factor, as what lies beside the media lights them the more the nearer it is.
 
 namespace {
 
@@ -124,8 +124,7 @@ std::optional<SubpathStart> SubpathStarts::from_infinity(uint32_t light, Shutter
     const Ray ray{target + from->direction * (2 * scene_.bounds_radius), -from->direction, time};
     const float on_media = max_component(irradiance) * kPi * media_->bounds_radius() * media_->bounds_radius();
     const Rgb power = irradiance * (1 / disk_density(target, from->direction, own));
-    return SubpathStart{
-        {ray, power * weight(light)}, from->delta, on_media * weight(light) * importance_of_media_, {}};
+    return SubpathStart{{ray, power * weight(light)}, from->delta, on_media * weight(light) * importance_of_media_, {}};
 }
 
 /// Of all disks together, per area across the direction, at a point of one of them.
