@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene.description import Floats, Mesh, Object, SceneDescription
+from ..scene.description import Floats, Object, SceneDescription
 from ..scene.problems import Notices, place
 from .material import has_glass
 
@@ -15,15 +15,8 @@ MOST_BODIES = 2000  # that are held against each other
 
 def warn_of_bodies_of_glass(scene: SceneDescription, world: str, notices: Notices) -> None:
     glass = {number for number, item in enumerate(scene.materials) if has_glass(item.material)}
-    closed: dict[int, bool] = {}
-
-    def is_body(item: Object) -> bool:
-        key = id(item.mesh)
-        if key not in closed:
-            closed[key] = is_closed(item.mesh)
-        return closed[key]
-
-    bodies = [(item.name, _bounds(item)) for item in scene.objects if glass & set(item.materials) and is_body(item)]
+    objects = (item for item in scene.objects if glass & set(item.materials) and item.mesh.is_closed)
+    bodies = [(item.name, _bounds(item)) for item in objects]
     for spheres in scene.spheres:
         if spheres.material in glass:
             radii = np.broadcast_to(spheres.radii, len(spheres.centers))[:, None]
@@ -44,17 +37,6 @@ def warn_of_bodies_of_glass(scene: SceneDescription, world: str, notices: Notice
                 f"where its glass reaches into that of '{other}', light passes from one to the other; in Cycles there"
                 " is air before every face",
             )
-
-
-def is_closed(mesh: Mesh) -> bool:
-    """Whether it encloses a body, as the engine sees it (Mesh::is_closed)."""
-    _, places = np.unique(mesh.vertices, axis=0, return_inverse=True)
-    corners = places.reshape(-1)[mesh.triangles].astype(np.int64)
-    begin, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-    edges = np.minimum(begin, end) * len(mesh.vertices) + np.maximum(begin, end)
-    a, b, c = (np.asarray(mesh.vertices, np.float64)[mesh.triangles[:, k]] - mesh.vertices[0] for k in range(3))
-    volume = float((a * np.cross(b, c)).sum())
-    return volume > 0.0 and bool(np.array_equal(np.sort(edges[begin < end]), np.sort(edges[begin > end])))
 
 
 def _bounds(item: Object) -> Floats:

@@ -453,6 +453,17 @@ class Mesh:
             state.update(np.ascontiguousarray(attribute.values, np.float32).reshape(-1).view(np.uint8).data)
         return state.digest()
 
+    @cached_property
+    def is_closed(self) -> bool:
+        """Whether it encloses a body, as the engine sees it (Mesh::is_closed)."""
+        _, places = np.unique(self.vertices, axis=0, return_inverse=True)
+        corners = places.reshape(-1)[self.triangles].astype(np.int64)
+        begin, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+        edges = np.minimum(begin, end) * len(self.vertices) + np.maximum(begin, end)
+        a, b, c = (np.asarray(self.vertices, np.float64)[self.triangles[:, k]] - self.vertices[0] for k in range(3))
+        volume = float((a * np.cross(b, c)).sum())
+        return volume > 0.0 and bool(np.array_equal(np.sort(edges[begin < end]), np.sort(edges[begin > end])))
+
 
 @dataclass(frozen=True, eq=False)
 class Object:

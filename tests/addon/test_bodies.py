@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from addon.export.bodies import is_closed, warn_of_bodies_of_glass
+from addon.export.bodies import warn_of_bodies_of_glass
 from addon.scene import description as d
 from addon.scene.problems import Notices
-from tests.render.build import Builder, box, camera, floor, grey, octahedron
+from tests.render.build import Builder, box, camera, faces_apart, floor, grey, octahedron
 
 GLASS = d.Mix(0.5, d.Glass(1.5), d.Lambert(grey(0.5)))
 VIEW = camera((0, -5, 0), (0, 0, 0), 40)
@@ -23,17 +23,12 @@ def told(scene: Builder) -> list[str]:
 
 def test_what_is_closed() -> None:
     whole = box((0, 0, 0), (1, 1, 1))
-    apart = replace(
-        whole,
-        vertices=whole.vertices[whole.triangles.ravel()],
-        triangles=np.arange(whole.triangles.size, dtype=np.uint32).reshape(-1, 3),
-    )
-    assert is_closed(whole)
-    assert is_closed(apart)
-    assert is_closed(octahedron((100, 0, 0), 1, 2))
-    assert not is_closed(replace(whole, triangles=whole.triangles[1:]))
-    assert not is_closed(replace(whole, triangles=whole.triangles[:, ::-1]))
-    assert not is_closed(floor())
+    assert whole.is_closed
+    assert faces_apart(whole).is_closed
+    assert octahedron((100, 0, 0), 1, 2).is_closed
+    assert not replace(whole, triangles=whole.triangles[1:]).is_closed
+    assert not replace(whole, triangles=whole.triangles[:, ::-1]).is_closed
+    assert not floor().is_closed
 
 
 @pytest.mark.parametrize(("inner", "is_told"), [(GLASS, True), (d.Lambert(grey(0.5)), False)])

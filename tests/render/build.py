@@ -72,6 +72,13 @@ def box(low: ArrayLike, high: ArrayLike, name: str = "box") -> d.Mesh:
     return d.Mesh(name, corners, np.array(triangles, np.uint32))
 
 
+def faces_apart(mesh: d.Mesh) -> d.Mesh:
+    """The same with vertices of their own for each triangle."""
+    return d.Mesh(
+        mesh.name, mesh.vertices[mesh.triangles.ravel()], np.arange(mesh.triangles.size, dtype=np.uint32).reshape(-1, 3)
+    )
+
+
 def octahedron(center: ArrayLike, radius: float, splits: int = 0) -> d.Mesh:
     """A closed convex body, normals outward; each split cuts the edges in two and pushes out to the sphere."""
     v = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], np.float64)

@@ -10,7 +10,7 @@ from addon.native.structs import State
 from addon.scene import description as d
 from tests.engine.library import Render, Scene
 from tests.render import closed_forms as exact
-from tests.render.build import BLACK, WHITE, Builder, box, camera, floor, grey, quad, radiometer, sky
+from tests.render.build import BLACK, WHITE, Builder, box, camera, faces_apart, floor, grey, quad, radiometer, sky
 from tests.render.statistics import INTEGRATORS, Measurement, check_radiance
 
 pytestmark = pytest.mark.parametrize("integrator", INTEGRATORS)
@@ -132,13 +132,6 @@ def test_sheets_in_a_row(integrator: str) -> None:
     through = (1 - r1) * (1 - r2) / (1 - r1 * r2)
     expected = through * BEHIND + (1 - through) * BEFORE
     check_radiance(Measurement(scene.done(), integrator), expected, within=0.02)
-
-
-def faces_apart(mesh: d.Mesh) -> d.Mesh:
-    """The same with vertices of their own for each triangle."""
-    return d.Mesh(
-        mesh.name, mesh.vertices[mesh.triangles.ravel()], np.arange(mesh.triangles.size, dtype=np.uint32).reshape(-1, 3)
-    )
 
 
 @pytest.mark.parametrize("shape", ["whole", "apart", "without a floor", "inside out"])

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "light/light_set.h"
 
+#include "sampling/defensive_mixture.h"
+
 #include <cmath>
 
 namespace glimmer {
 
 namespace {
 
-constexpr float kGuided = 0.9f;  // the rest is uniform: a bound can underflow, or miss a light's rim
-constexpr float kLeast = 1e-30f; // a sum of weights below it (all lights beyond many mean free paths) guides nothing
+constexpr float kGuided = 0.9f; // the rest is uniform: a bound can underflow, or miss a light's rim
 
 /// Draws from `weights` mixed with the uniform distribution. n >= 1.
 template <class Weigh>
@@ -16,11 +17,10 @@ LightChoice choose_by(uint32_t n, float u, std::array<float, LightSet::kWeighedL
     float total = 0;
     for (uint32_t i = 0; i < n; ++i)
         total += weights[i] = weigh(i);
-    const bool guided = total > kLeast;
-    const float uniform = (guided ? 1 - kGuided : 1.0f) / float(n), scale = guided ? kGuided / total : 0.0f;
+    const DefensiveMixture mixture(total, n, 1 - kGuided);
     float left = u;
     for (uint32_t i = 0;; ++i) {
-        const float p = uniform + scale * weights[i];
+        const float p = mixture.probability(weights[i]);
         if (left < p || i + 1 == n)
             return {i, p};
         left -= p;
@@ -36,7 +36,7 @@ float probability_by(uint32_t n, uint32_t light, const Weigh &weigh) {
         if (i == light)
             own = w;
     }
-    return total > kLeast ? (1 - kGuided) / float(n) + kGuided / total * own : 1.0f / float(n);
+    return DefensiveMixture(total, n, 1 - kGuided).probability(own);
 }
 
 } // namespace

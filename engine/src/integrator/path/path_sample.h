@@ -19,6 +19,7 @@
 #include "integrator/visibility.h"
 #include "light/equiangular_table.h"
 #include "medium/phase.h"
+#include "sampling/defensive_mixture.h"
 #include "sampling/dimensions.h"
 
 #include <cmath>

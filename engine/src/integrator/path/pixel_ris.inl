@@ -57,12 +57,10 @@ void PathSample<F>::pixel_ris(ShutterTime time) {
     }
     if (count == 0)
         return;
-    const bool guided = total > tuning::kLeastRisTotal && total < kInfinity;
-    const float even = (guided ? tuning::kRisUniformFraction : 1.0f) / float(count),
-                scale = guided ? (1 - tuning::kRisUniformFraction) / total : 0.0f;
+    const DefensiveMixture mixture(total, count, tuning::kRisUniformFraction);
     float left = sampler_.next_1d();
     for (uint32_t i = 0; i < count; ++i) {
-        const float probability = even + scale * candidates[i].target;
+        const float probability = mixture.probability(candidates[i].target);
         if (left >= probability && i + 1 < count) {
             left -= probability;
             continue;

@@ -65,9 +65,6 @@ static_assert(kRisCandidates <= dimension_count(Dimension::candidate_film), "eve
 /// Part of the choice that is uniform over the candidates, for light that the target function did not expect. Bounds
 /// the weights by kRisCandidates over this. Chosen.
 GLIMMER_TUNABLE_CONSTANT(float, kRisUniformFraction, 0.1f);
-/// A sum of target functions below which they guide nothing: all surfaces are beyond many mean free paths. Derived: its
-/// reciprocal is a float.
-inline constexpr float kLeastRisTotal = 1e-30f;
 
 // Bounds of lights (segment.inl)
 

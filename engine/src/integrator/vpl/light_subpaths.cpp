@@ -2,11 +2,9 @@
 #include "integrator/vpl/light_subpaths.h"
 
 #include "integrator/dielectric_crossing.h"
-#include "integrator/dielectrics_at.h"
 #include "integrator/return_bound.h"
 #include "integrator/roulette.h"
 #include "integrator/shading_frame.h"
-#include "integrator/visibility.h"
 #include "integrator/vpl/bounded_fraction.h"
 #include "integrator/vpl/connection.h"
 #include "integrator/vpl/subpath_starts.h"
@@ -15,7 +13,6 @@
 #include "medium/phase.h"
 #include "sampling/warp.h"
 
-#include <array>
 #include <cmath>
 
 namespace glimmer {

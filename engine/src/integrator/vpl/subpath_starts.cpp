@@ -3,7 +3,6 @@
 
 #include "integrator/dielectrics_at.h"
 #include "integrator/visibility.h"
-#include "integrator/vpl/streams.h"
 #include "integrator/vpl/tuning.h"
 #include "light/light.h"
 #include "sampling/warp.h"
@@ -31,7 +30,7 @@ Rgb passes_dark(const Scene &scene, const Emission &start, TraceContext &rays) {
 
 SubpathStarts::SubpathStarts(const Scene &scene, const ImportanceMap &importance, uint32_t paths)
     : scene_(scene), importance_(importance), media_(scene.medium ? scene.medium->bounded() : nullptr), paths_(paths),
-      cones_(scene.lights.size()) {
+      aims_(scene.lights.size()) {
     if (media_) {
         importance_of_media_ = importance(media_->bounds_center());
         const float all = scene.bounds_radius;
@@ -48,9 +47,11 @@ SubpathStarts::SubpathStarts(const Scene &scene, const ImportanceMap &importance
         const LightBound &b = lights.bound(i);
         if (b.infinite && !media_) // it has no way into a medium without end
             continue;
-        if (media_ && !b.infinite && side(i) == Side::outwards)
-            cones_[i] = cones_towards_media(b);
-        const bool is_far = b.infinite || !cones_[i].one_minus_cos.empty();
+        if (!b.infinite)
+            aims_[i].side = side(i);
+        if (media_ && !b.infinite && aims_[i].side == Side::outwards)
+            add_cones(aims_[i], b);
+        const bool is_far = b.infinite || !aims_[i].cones.empty();
         total += shares[i] = brightness(b, is_far) * double(is_far ? importance_of_media_ : importance(b.center));
         ++started;
     }
@@ -99,14 +100,13 @@ SubpathStarts::Side SubpathStarts::side(uint32_t light) const {
     return distance < b.radius ? Side::inwards : Side::outwards;
 }
 
-SubpathStarts::Cones SubpathStarts::cones_towards_media(const LightBound &bound) const {
+void SubpathStarts::add_cones(Aim &aim, const LightBound &bound) const {
     const Vec3f to_media = media_->bounds_center() - bound.center;
     const float distance = length(to_media);
-    Cones cones{distance > 0 ? to_media / distance : Vec3f{0, 0, 1}, {}};
+    aim.axis = distance > 0 ? to_media / distance : Vec3f{0, 0, 1};
     const float reach = media_->bounds_radius() + bound.radius;
     for (float radius = reach; radius > 0 && radius < distance * tuning::kWidestCone; radius *= tuning::kAimGrowth)
-        cones.one_minus_cos.push_back(one_minus_cos_of_sine(radius / distance));
-    return cones;
+        aim.cones.push_back(one_minus_cos_of_sine(radius / distance));
 }
 
 std::optional<SubpathStart> SubpathStarts::from_infinity(uint32_t light, ShutterTime time, Sampler &sampler) const {
@@ -139,7 +139,7 @@ float SubpathStarts::disk_density(const Vec3f &x, const Vec3f &direction, size_t
 std::optional<SubpathStart> SubpathStarts::from_light(uint32_t light, ShutterTime time, Sampler &sampler,
                                                       TraceContext &rays) const {
     const LightBound &bound = scene_.lights.bound(light);
-    const auto &[axis, cones] = cones_[light];
+    const auto &[sides, axis, cones] = aims_[light];
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     EmissionDirection to{u_direction};
     float choices = 1;
@@ -154,7 +154,6 @@ std::optional<SubpathStart> SubpathStarts::from_light(uint32_t light, ShutterTim
             to.pdf = pdf_uniform_cone(extent);
         }
     }
-    const Side sides = side(light);
     const bool inwards = sides == Side::both ? sampler.next_1d() < 0.5f : sides == Side::inwards;
     auto start = sample_emission(scene_.lights[light], inwards, u_position, to, sampler.next_1d());
     if (!start || is_black(start->power))

@@ -41,16 +41,18 @@ class SubpathStarts {
         Vec3f center;
         float radius;
     };
-    /// About the direction from a light to the media.
-    struct Cones {
-        Vec3f axis;
-        std::vector<float> one_minus_cos; ///< of the half angles, from narrow to wide; none: the light is not far
-    };
     /// To which side of a light's surface the rays go that may come into the picture.
     enum class Side { outwards, inwards, both };
+    /// Where a light that is not infinite sends its rays.
+    struct Aim {
+        Side side = Side::outwards;
+        Vec3f axis; ///< to the media
+        std::vector<float>
+            cones; ///< about it: 1 - cos of their half angles, from narrow to wide; none unless it is far
+    };
 
     Side side(uint32_t light) const;
-    Cones cones_towards_media(const LightBound &bound) const;
+    void add_cones(Aim &aim, const LightBound &bound) const;
     double brightness(const LightBound &bound, bool is_far) const;
     float weight(uint32_t light) const { return float(1 / (shares_[light] * paths_)); }
     std::optional<SubpathStart> from_infinity(uint32_t light, ShutterTime time, Sampler &sampler) const;
@@ -64,7 +66,7 @@ class SubpathStarts {
     uint32_t paths_;
     float importance_of_media_ = 0; ///< of their centre
     std::vector<Disk> disks_;       ///< across light from infinity
-    std::vector<Cones> cones_;      ///< of each light
+    std::vector<Aim> aims_;         ///< of each light
     std::vector<double> shares_;
 };
 
