@@ -39,9 +39,20 @@ def _settings() -> dict[str, Any]:
     }
 
 
-def _client(address: Any) -> Client:
+class FarmClient(Client):
+    """Dask's client, and what a farm asks besides."""
+
+    def seen_workers(self) -> dict[str, dict[str, Any]]:
+        """By address, as the scheduler knows them now. Client.scheduler_info() is no answer: what it returns is set to
+        an empty list by the client's own look, each 2 seconds, which may come in between.
+        """
+        found: dict[str, dict[str, Any]] = self.sync(self.scheduler.identity)["workers"]
+        return found
+
+
+def _client(address: Any) -> FarmClient:
     logging.getLogger("distributed").setLevel(logging.ERROR)
-    return Client(
+    return FarmClient(
         address,
         timeout=CONNECT_SECONDS,
         set_as_default=False,
@@ -55,7 +66,7 @@ def worker_resources(engine: Engine) -> dict[str, float]:
 
 
 @contextmanager
-def local_cluster(workers: int, folder: Path | None = None) -> Iterator[Client]:
+def local_cluster(workers: int, folder: Path | None = None) -> Iterator[FarmClient]:
     """Workers that are processes of this machine; one that dies is replaced. folder: for their files."""
     engine = Engine.here()
     with dask.config.set(_settings()):
@@ -74,7 +85,7 @@ def local_cluster(workers: int, folder: Path | None = None) -> Iterator[Client]:
 
 
 @contextmanager
-def connect(address: str) -> Iterator[Client]:
+def connect(address: str) -> Iterator[FarmClient]:
     """Raises FarmError where no scheduler answers."""
     with dask.config.set(_settings()):
         try:

@@ -204,7 +204,7 @@ class Farm:
 
     def _look_at_workers(self, now: float) -> None:
         try:
-            found = self._client.scheduler_info()["workers"]
+            found = self._client.seen_workers()
         except (OSError, TimeoutError, KeyError) as error:
             raise FarmError(f"the scheduler does not answer: {one_line(str(error))}") from error
         for address in set(self._workers) - set(found):

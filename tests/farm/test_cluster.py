@@ -13,6 +13,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
+import dask
 import numpy as np
 import pytest
 from distributed import LocalCluster
@@ -97,6 +98,15 @@ def test_without_a_fit_worker_there_is_one_clear_line(scene: Path) -> None:
     ):
         Farm(client, options_of(scene, wait_seconds=1.0), lines.append).run()
     assert "\n" not in str(caught.value) and len(lines) == 1
+
+
+def test_no_look_at_the_workers_finds_none_while_there_are_some() -> None:
+    with (
+        dask.config.set({"distributed.client.scheduler-info-interval": "1ms"}),
+        LocalCluster(n_workers=1, processes=False, dashboard_address="127.0.0.1:0") as cluster,
+        connect(cluster.scheduler_address) as client,
+    ):
+        assert {len(client.seen_workers()) for _ in range(500)} == {1}
 
 
 def test_a_bad_scene_is_told_before_any_worker_has_it(tmp_path: Path) -> None:

@@ -67,11 +67,11 @@ class Cluster:
         self._ticks = itertools.count(1)
         self.scheduler = type("Scheduler", (), {"address": "tcp://played:1"})
 
-    def scheduler_info(self) -> dict[str, Any]:
+    def seen_workers(self) -> dict[str, Any]:
         for worker in self.workers.values():
             worker.last_seen = next(self._ticks) if worker.is_heard else worker.last_seen
         alive = {name: worker for name, worker in self.workers.items() if worker.is_alive}
-        return {"workers": {n: {"resources": w.resources, "last_seen": w.last_seen} for n, w in alive.items()}}
+        return {name: {"resources": w.resources, "last_seen": w.last_seen} for name, w in alive.items()}
 
     def submit(self, function: Any, *arguments: Any, workers: list[str], **_: Any) -> Task:
         worker, task = self.workers[workers[0]], Task()
