@@ -615,17 +615,20 @@ def check(blender: str | None, options: CheckOptions) -> None:
     run([*command, "--said", shlex.join(said)], env=own_python_first(executable))
 
 
+def virtual_environment_of_farm() -> None:
+    install_packages(["python3-venv", "ca-certificates"])
+    virtual_environment("farm")
+
+
 def farm(words: Sequence[str]) -> None:
-    """One frame over many machines, by the package engine.farm; its words are its own."""
+    """One frame over many machines: `build/bin/glimmer farm`, and before it what that needs."""
     if {"-h", "--help"} & set(words):
-        farm_command.arguments().print_help()
+        farm_command.arguments("build.py farm").print_help()
         return
-    install_packages([*wanted_packages(("build",), None), "python3-venv", "ca-certificates"])
+    install_packages(wanted_packages(("build",), None))
+    virtual_environment_of_farm()
     build()
-    python = virtual_environment("farm")
-    path = os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])
-    command = [str(python), "-m", "engine.farm", *words]
-    status = subprocess.run(command, env={**os.environ, "PYTHONPATH": path}, check=False).returncode
+    status = subprocess.run([str(COMMAND), "farm", *words], check=False).returncode
     if status != 0:
         sys.exit(status)
 
@@ -691,6 +694,7 @@ def arguments() -> argparse.ArgumentParser:
 
     item = command("setup", "Install what building and rendering need, and is missing (apt).", blender=True)
     item.add_argument("--test", action="store_true", help="also what `test` and `lint` need")
+    item.add_argument("--farm", action="store_true", help="also what `build/bin/glimmer farm` needs: Dask")
     item = command("build", "Compile the engine; leaves build/bin/glimmer and build/lib/libglimmer.so.")
     item.add_argument("--preset", default="release", choices=("release", "debug", "asan", "tsan", "fuzz"))
     quick = QuickLook()
@@ -777,7 +781,7 @@ def arguments() -> argparse.ArgumentParser:
     )
     item = commands.add_parser(
         "farm",
-        help="Render one frame by many machines, or be one of them; `build.py farm --help` and addon/docs/farm.md.",
+        help="Render one frame by many machines, or be one of them: `glimmer farm`, and before it what that needs.",
         add_help=False,
         prefix_chars="\0",  # its words are the package's, options and all
     )
@@ -801,6 +805,8 @@ def main(argv: Sequence[str]) -> int:
             setup(given.blender, ("build", "render", "test") if given.test else ("build", "render"))
             if given.test:
                 newest_host()
+            if given.farm:
+                virtual_environment_of_farm()
         elif given.command == "build":
             install_packages(wanted_packages(("build",), None))
             build(given.preset)

@@ -32,7 +32,7 @@ def build_py(*arguments: str | Path, **variables: str) -> subprocess.CompletedPr
     [
         ("build.py", {"tests", "engine"}),
         ("tests/newest_blender.py", set()),
-        ("engine/farm/__main__.py", {"", "problems", "farm"}),
+        ("engine/farm/__main__.py", {"", "problems", "farm", "frame", "live"}),
     ],
 )
 def test_imports_nothing_but_the_standard_library(file: str, own: set[str]) -> None:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The glimmer command: a client of the C API. See SCENE_FORMAT.md beside this file.
 #include "errors.h"
+#include "farm_command.h"
 #include "glimmer.h"
 #include "merge_command.h"
 #include "options.h"
@@ -21,6 +22,8 @@ int run(int argc, char **argv) {
         return run_render(*render);
     if (const auto *merge = std::get_if<MergeOptions>(&options))
         return run_merge(*merge);
+    if (const auto *farm = std::get_if<FarmOptions>(&options))
+        return run_farm(*farm);
     const std::string &text = std::get<Information>(options).text;
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     return written ? kDone : kNoResult;

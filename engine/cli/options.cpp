@@ -127,6 +127,8 @@ void expect_different_files(const RenderOptions &options) {
 
 Options parse_options(int argc, char **argv) {
     std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (!arguments.empty() && arguments[0] == "farm")
+        return FarmOptions{{arguments.begin() + 1, arguments.end()}};
     if (!arguments.empty() && arguments[0] == "merge") {
         arguments.erase(arguments.begin());
         std::optional<Information> help;
@@ -138,7 +140,10 @@ Options parse_options(int argc, char **argv) {
     std::string scene, output, spp, time, error, integrator, seed, threads, tile, aov, checkpoint, interval, report,
         curve;
     bool version = false, list_integrators = false, list_aovs = false;
-    CLI::App app("Renders a scene file. \"glimmer merge --help\" tells how to join pictures.", "glimmer");
+    CLI::App app(
+        "Renders a scene file. \"glimmer merge --help\" tells how to join pictures, \"glimmer farm --help\" how to "
+        "render by many machines.",
+        "glimmer");
     app.add_option("SCENE", scene, "the scene file (.json)");
     app.add_option("-o,--output", output, "picture to write: .exr (everything), .png, .pfm or .hdr")->type_name("FILE");
     app.add_option("--spp", spp, "stop at N samples a pixel (64 when no limit is given)")->type_name("N");

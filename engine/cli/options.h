@@ -33,12 +33,17 @@ struct MergeOptions {
     std::filesystem::path output;
 };
 
+/// What engine/farm understands, unread.
+struct FarmOptions {
+    std::vector<std::string> words;
+};
+
 /// Text for the standard output, and nothing else to do: --help, --version and the lists.
 struct Information {
     std::string text;
 };
 
-using Options = std::variant<RenderOptions, MergeOptions, Information>;
+using Options = std::variant<RenderOptions, MergeOptions, FarmOptions, Information>;
 
 /// Throws InputError with one line.
 Options parse_options(int argc, char **argv);

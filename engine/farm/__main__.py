@@ -5,17 +5,16 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import signal
 import sys
 import time
 from collections.abc import Sequence
-from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
 from .problems import FarmError
 
+PROGRAM = "glimmer farm"
 LINE_SECONDS = 5.0
 
 
@@ -24,9 +23,10 @@ def say(text: str) -> None:
     sys.stderr.flush()
 
 
-def arguments() -> argparse.ArgumentParser:
+def arguments(program: str = PROGRAM) -> argparse.ArgumentParser:
+    """program: as the user calls it."""
     parser = argparse.ArgumentParser(
-        prog="build.py farm",
+        prog=program,
         description="Renders one frame by the workers of a Dask cluster: ranges of its samples, each with a seed of its"
         " own, merged as they come. Without --scheduler the workers are processes of this machine.",
     )
@@ -42,6 +42,7 @@ def arguments() -> argparse.ArgumentParser:
     parser.add_argument("--integrator", default="", metavar="NAME")
     parser.add_argument("--aov", default="", metavar="NAME,...", help="extra layers")
     parser.add_argument("--adaptive", action="store_true", help="each range samples where the picture needs it")
+    parser.add_argument("--independent-pixels", action="store_true", help="as of glimmer: for denoisers")
     parser.add_argument("--threads", type=int, default=0, metavar="N", help="of each worker")
     parser.add_argument("--report", type=Path, metavar="OUT.json", help="error, curve, workers, bytes that moved")
     parser.add_argument("--every", type=float, default=0.0, metavar="SECONDS", help="also write OUT.exr this often")
@@ -50,6 +51,12 @@ def arguments() -> argparse.ArgumentParser:
         "--silent", type=float, default=20.0, metavar="SECONDS", help="until a silent worker loses its range"
     )
     parser.add_argument("--quiet", action="store_true", help="no progress on the standard error")
+    parser.add_argument(
+        "--live",
+        type=Path,
+        metavar="FOLDER",
+        help="for a program that shows the picture: see engine/farm/live.py; -o can be left out",
+    )
     parser.add_argument("--start-worker", metavar="ADDRESS", help="be a worker of this scheduler, until it is ended")
     parser.add_argument("--folder", type=Path, metavar="FOLDER", help="for a worker's files (default: temporary)")
     parser.add_argument("--start-scheduler", metavar="HOST:PORT", help="be a scheduler, as 0.0.0.0:8786")
@@ -57,13 +64,13 @@ def arguments() -> argparse.ArgumentParser:
 
 
 def check(parser: argparse.ArgumentParser, given: argparse.Namespace) -> None:
-    if given.scene is None or given.output is None:
+    if given.scene is None or (given.output is None and given.live is None):
         parser.error("SCENE.json and -o OUT.exr are needed")
-    if given.output.suffix.lower() != ".exr":
+    if given.output is not None and given.output.suffix.lower() != ".exr":
         parser.error(f"-o {given.output}: must end with .exr")
     if given.scheduler is not None and given.workers is not None:
         parser.error("--workers: are those of this machine, and --scheduler has its own")
-    ranges = {"range": (2, 1 << 20), "spp": (0, 1 << 30), "seed": (0, 1 << 62), "threads": (0, 4096)}
+    ranges = {"range": (2, 1 << 20), "spp": (0, 1 << 30), "seed": (0, (1 << 64) - 1), "threads": (0, 4096)}
     for name, (low, high) in ranges.items():
         if not low <= getattr(given, name) <= high:
             parser.error(f"--{name} {getattr(given, name)}: must be from {low} to {high}")
@@ -74,23 +81,41 @@ def check(parser: argparse.ArgumentParser, given: argparse.Namespace) -> None:
             parser.error(f"--{name} {getattr(given, name)}: must be a number of at least 0")
 
 
-def cluster_of(given: argparse.Namespace) -> AbstractContextManager[Any]:
-    from . import cluster
-
-    if given.scheduler is not None:
-        return cluster.connect(given.scheduler)
-    return cluster.local_cluster(given.workers or 2, given.folder)
-
-
 def render(given: argparse.Namespace) -> int:
     from . import picture
-    from .farm import Farm, FarmOptions, Progress
+    from .farm import Progress
+    from .frame import render_frame
+    from .live import Live
 
-    threads = given.threads
-    if given.scheduler is None and not threads:
-        threads = max((os.cpu_count() or 1) // (given.workers or 2), 1)
-    options = FarmOptions(
-        scene=given.scene,
+    interrupted: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, _: interrupted.append(number))
+    live = None if given.live is None else Live(given.live)
+    told = written = time.monotonic()
+
+    def is_stopped() -> bool:
+        return bool(interrupted) or (live is not None and live.is_ended)
+
+    def watch(progress: Progress) -> None:
+        nonlocal told, written
+        now = time.monotonic()
+        if live is not None:
+            live.show(progress)
+        if not given.quiet and now - told >= LINE_SECONDS:
+            told = now
+            say(line(progress))
+        if given.output and given.every and now - written >= given.every and progress.ranges:
+            picture.write(progress.picture(), given.output)
+            written = time.monotonic()
+
+    outcome = render_frame(
+        given.scene,
+        scheduler=given.scheduler,
+        workers=given.workers,
+        folder=given.folder,
+        say=say,
+        watch=watch,
+        stop=is_stopped,
         samples=given.spp,
         error=given.error,
         seconds=given.time,
@@ -99,37 +124,23 @@ def render(given: argparse.Namespace) -> int:
         integrator=given.integrator,
         aovs=tuple(name for name in given.aov.split(",") if name),
         adaptive=given.adaptive,
-        threads=threads,
+        independent_pixels=given.independent_pixels,
+        threads=given.threads,
         wait_seconds=given.wait,
         silent_seconds=given.silent,
     )
-    interrupted: list[int] = []
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda number, _: interrupted.append(number))
-    told = written = time.monotonic()
-    with cluster_of(given) as client:
-        farm = Farm(client, options, say)
-
-        def watch(progress: Progress) -> None:
-            nonlocal told, written
-            now = time.monotonic()
-            if not given.quiet and now - told >= LINE_SECONDS:
-                told = now
-                say(line(progress))
-            if given.every and now - written >= given.every and progress.ranges:
-                picture.write(farm.picture(), given.output)
-                written = time.monotonic()
-
-        outcome = farm.run(watch, lambda: bool(interrupted))
-        if given.report is not None:
-            given.report.write_text(json.dumps(outcome.report, indent=2) + "\n")
-        picture.write(outcome.picture, given.output)
+    if given.report is not None:
+        given.report.write_text(json.dumps(outcome.report, indent=2) + "\n")
+    if given.output is not None:
+        outcome.write(given.output)
+    if live is not None:
+        live.finish(outcome)
     if not given.quiet:
         say(
-            f"{given.output}: {outcome.report['spp']} spp by {len(outcome.report['workers'])} workers in"
-            f" {outcome.report['seconds']:.1f} s, {error_words(outcome.error)}"
+            f"{given.output or given.scene}: {outcome.report['spp']} spp by {len(outcome.report['workers'])} workers in"
+            f" {outcome.report['seconds']['render']:.1f} s, {error_words(outcome.error)}"
         )
-    return 130 if interrupted else 0
+    return 130 if is_stopped() else 0
 
 
 def error_words(error: Any) -> str:
@@ -155,7 +166,7 @@ def main(argv: Sequence[str]) -> int:
     try:
         from . import cluster
     except ImportError as error:
-        say(f"build.py farm: {error.name} is not installed; `python3 build.py farm` brings it along")
+        say(f"{PROGRAM}: {sys.executable} has no {error.name}; `python3 build.py setup --farm` makes one that has")
         return 1
     try:
         if given.start_scheduler is not None:
@@ -168,10 +179,10 @@ def main(argv: Sequence[str]) -> int:
         check(parser, given)
         return render(given)
     except FarmError as error:
-        say(f"build.py farm: {error}")
+        say(f"{PROGRAM}: {error}")
         return 1
     except OSError as error:
-        say(f"build.py farm: {error}")
+        say(f"{PROGRAM}: {error}")
         return 2
 
 

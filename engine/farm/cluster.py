@@ -22,7 +22,7 @@ from .engine import ROOT, Engine
 from .on_worker import THREADS_VARIABLE
 from .problems import FarmError, one_line
 
-CONNECT_SECONDS = 30
+CONNECT_SECONDS = 10
 # One thread renders a range, the other one answers: that a job has ended, above all.
 WORKER_THREADS = 2
 _DESERIALIZERS = ["dask", "msgpack"]

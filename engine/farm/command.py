@@ -18,11 +18,14 @@ _PR_SET_PDEATHSIG = 1
 
 
 def words_of(engine: Engine, order: Order, scene: Path, out: Path, report: Path, threads: int) -> list[str]:
+    """threads: 0 is all cores."""
     command = [str(engine.command), str(scene), "-o", str(out), "--report", str(report), "--quiet"]
-    command += ["--seed", str(int(order.seed)), "--spp", str(int(order.samples)), "--threads", str(threads)]
+    command += ["--seed", str(int(order.seed)), "--spp", str(int(order.samples))]
+    command += ["--threads", str(threads)] if threads else []
     command += ["--integrator", order.integrator] if order.integrator else []
     command += ["--aov", ",".join(order.aovs)] if order.aovs else []
-    return [*command, "--adaptive"] if order.adaptive else command
+    command += ["--adaptive"] if order.adaptive else []
+    return [*command, "--independent-pixels"] if order.independent_pixels else command
 
 
 def _die_with_the_parent() -> None:

@@ -43,7 +43,7 @@ class Identity:
     def refusal(self, other: Identity | None) -> str:
         """Why a worker with another identity cannot take part, in words; empty when it can."""
         if other is None:
-            return "it was not started by `build.py farm --start-worker`"
+            return "it was not started by `glimmer farm --start-worker`"
         if other == self:
             return ""
         what = [

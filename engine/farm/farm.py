@@ -10,6 +10,7 @@ twice is counted once (merge.py).
 from __future__ import annotations
 
 import heapq
+import json
 import tempfile
 import time
 import uuid
@@ -18,6 +19,7 @@ from collections.abc import Callable
 from concurrent.futures import Future as Fetch
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from math import isfinite
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -26,9 +28,9 @@ from . import command, on_worker, picture, ranges
 from .engine import Engine, Identity
 from .error import REPLICATES, ErrorEstimate
 from .merge import Sums
-from .picture import Facts, Picture
+from .picture import Picture
 from .problems import FarmError, one_line
-from .ranges import Expected, Order
+from .ranges import Expected, Order, Work
 from .scene_files import PackedScene
 
 LOOK_SECONDS = 0.5  # from one look at the list of workers to the next
@@ -38,6 +40,7 @@ MAX_TRIES = 5  # of one range
 REST_SECONDS = 5.0  # after a failure
 FETCH_SECONDS = 120.0
 END_SECONDS = 3.0
+SEEDS = 1 << 64
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,7 @@ class FarmOptions:
     integrator: str = ""
     aovs: tuple[str, ...] = ()
     adaptive: bool = False
+    independent_pixels: bool = False
     threads: int = 0  # of each worker; 0: its own number
     wait_seconds: float = 60.0  # without any worker
     silent_seconds: float = 20.0  # a worker that gives no sign of life so long loses its range
@@ -101,6 +105,10 @@ class Outcome:
     error: ErrorEstimate
     report: dict[str, Any]
 
+    def write(self, path: str | Path) -> None:
+        """The picture, as .exr. Raises FarmError."""
+        picture.write(self.picture, Path(path))
+
 
 @dataclass
 class Progress:
@@ -109,7 +117,8 @@ class Progress:
     workers: int
     seconds: float
     error: ErrorEstimate
-    sums: Sums = field(repr=False)
+    picture: Callable[[], Picture] = field(repr=False)  # what is merged so far; of one range at least
+    report: Callable[[], dict[str, Any]] = field(repr=False)
 
 
 class Farm:
@@ -126,9 +135,11 @@ class Farm:
         self._next = 0
         self._looks = 0
         self._seconds: list[float] = []  # of finished ranges, from giving to getting
+        self._work = Work()  # of all of them
+        self._said: dict[str, Any] = {"warnings": [], "warning_codes": [], "left_out": []}  # by the engine
         self._cost = Cost()
         self._error = ErrorEstimate()
-        self._curve: list[list[float]] = []
+        self._curve: list[list[float | None]] = []
 
     def run(self, watch: Callable[[Progress], None] | None = None, stop: Callable[[], bool] | None = None) -> Outcome:
         """Raises FarmError. watch: is told at every look and now and then. stop: whether to end with what is there."""
@@ -147,17 +158,17 @@ class Farm:
                 self._end()
         if self._sums.count == 0:
             raise FarmError("no picture: the farm was ended before its first range")
-        return self._outcome()
+        return Outcome(self.picture(), self._error, self.report())
 
     def _probe(self, folder: Path) -> Picture:
         """One sample, rendered here: whether the scene is sound, and what ranges must look like."""
-        options, out = self._options, folder / "probe.exr"
-        order = Order("", "", 0, options.seed, 1, "", options.threads, options.integrator, options.aovs)
+        options, out, report = self._options, folder / "probe.exr", folder / "probe.json"
+        order = replace(self._order(0), samples=1)
         command.finish(
-            command.start(
-                command.words_of(self._engine, order, options.scene, out, folder / "probe.json", options.threads)
-            )
+            command.start(command.words_of(self._engine, order, options.scene, out, report, options.threads))
         )
+        told = json.loads(report.read_text())
+        self._said = {name: told[name] for name in self._said}
         return picture.read(out).layer_free("stderr")
 
     # -- The loop
@@ -188,7 +199,8 @@ class Farm:
     def _progress(self) -> Progress:
         fit = sum(self._is_fit(worker) for worker in self._workers.values())
         seconds = time.monotonic() - self._start
-        return Progress(self._sums.count, self._sums.samples, fit, seconds, self._error, self._sums)
+        count, samples = self._sums.count, self._sums.samples
+        return Progress(count, samples, fit, seconds, self._error, self.picture, self.report)
 
     def _is_fit(self, worker: Worker) -> bool:
         return not worker.silent and worker.failures < MAX_FAILURES
@@ -197,7 +209,7 @@ class Farm:
         why = f"; {self._refused[-1]}" if self._refused else ""
         return (
             f"{self._client.scheduler.address}: no worker for {self._options.wait_seconds:g} s{why};"
-            " `build.py farm --start-worker ADDRESS` on a machine starts one"
+            " `glimmer farm --start-worker ADDRESS` on a machine starts one"
         )
 
     # -- Workers come, go and fall silent
@@ -295,14 +307,18 @@ class Farm:
             job=self._job,
             scene=self._scene.digest,
             index=index,
-            seed=options.seed + index,
+            seed=self._seed(index),
             samples=options.range_samples,
             program=self._engine.identity.program,
             threads=options.threads,
             integrator=options.integrator,
             aovs=options.aovs,
             adaptive=options.adaptive,
+            independent_pixels=options.independent_pixels,
         )
+
+    def _seed(self, index: int) -> int:
+        return (self._options.seed + index) % SEEDS
 
     def _look_at_task(self, worker: Worker, now: float) -> None:
         if worker.fetch is None:
@@ -348,6 +364,8 @@ class Farm:
         self._seconds.append(seconds)
         worker.ranges, worker.seconds, worker.failures = worker.ranges + 1, worker.seconds + seconds, 0
         self._cost.result_bytes += len(data)
+        if not self._sums.has(item.index):
+            self._work += item.work
         self._sums.put(item)
         worker.task = worker.order = None
 
@@ -397,7 +415,8 @@ class Farm:
             self._looks += 1
         self._cost.look_seconds += time.thread_time() - start
         error, seconds = self._error, time.monotonic() - self._start
-        self._curve.append([seconds, self._sums.samples, error.relmse, error.low, error.high])
+        interval = [value if isfinite(value) else None for value in (error.relmse, error.low, error.high)]
+        self._curve.append([seconds, self._work.cpu_seconds, self._sums.samples, *interval])
 
     def _end(self) -> None:
         """Ends what is still rendered for this job, and waits for nobody who does not answer at once."""
@@ -410,33 +429,37 @@ class Farm:
 
     def picture(self) -> Picture:
         """What is merged so far; one range at least."""
-        return self._sums.picture(self._merged_facts(time.monotonic() - self._start))
-
-    def _merged_facts(self, seconds: float) -> Facts:
-        first, count = self._options.seed, self._sums.count
-        return replace(
-            self._facts, samples=self._sums.samples, seeds=tuple(range(first, first + count)), seconds=seconds
-        )
-
-    def _outcome(self) -> Outcome:
-        options, sums, cost = self._options, self._sums, self._cost
+        seeds = tuple(self._seed(index) for index in range(self._sums.count))
         seconds = time.monotonic() - self._start
-        facts = self._merged_facts(seconds)
-        report = {
-            "engine": self._engine.identity.text(),
+        return self._sums.picture(replace(self._facts, samples=self._sums.samples, seeds=seeds, seconds=seconds))
+
+    def report(self) -> dict[str, Any]:
+        """As far as it is known. What a render's report has too has its names, and means the same."""
+        facts, work, cost = self._facts, self._work, self._cost
+        return {
+            "engine": self._engine.identity.version,
+            "build": self._engine.identity.text(),
             "scene": facts.scene,
             "integrator": facts.integrator,
             "biased_by": [name for name in facts.biased_by.split(", ") if name],
-            "spp": sums.samples,
-            "ranges": sums.count,
-            "seed": options.seed,
-            "seconds": seconds,
+            "spp": self._sums.samples,
+            "ranges": self._sums.count,
+            "seed": self._options.seed,
+            "seconds": {
+                "render": time.monotonic() - self._start,
+                "cpu": work.cpu_seconds,
+                "load": work.load_seconds,
+                "range": median(self._seconds) if self._seconds else 0.0,
+                "check": cost.check_seconds,
+                "merge": cost.merge_seconds,
+                "look": cost.look_seconds,
+            },
+            "rays": work.rays,
+            "invalid_samples": {"count": work.invalid_samples},
             "error": self._error.report(),
-            "curve": self._curve,
+            "curve": list(self._curve),
             "workers": {w.address: {"ranges": w.ranges, "seconds": w.seconds} for w in self._workers.values()},
-            "refused": self._refused,
-            "range_seconds": median(self._seconds),
+            "refused": list(self._refused),
             "bytes": {"scene": cost.scene_bytes, "results": cost.result_bytes},
-            "cpu_seconds": {"check": cost.check_seconds, "merge": cost.merge_seconds, "look": cost.look_seconds},
+            **self._said,
         }
-        return Outcome(sums.picture(facts), self._error, report)

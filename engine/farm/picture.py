@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,7 +50,11 @@ class Picture:
 
     def layer_free(self, layer: str) -> Picture:
         """Without the channels of a layer."""
-        kept = [i for i, name in enumerate(self.layout.channels) if not name.startswith(f"{layer}.")]
+        return self.only([name for name in self.layout.channels if not name.startswith(f"{layer}.")])
+
+    def only(self, channels: Collection[str]) -> Picture:
+        """With those channels of it."""
+        kept = [i for i, name in enumerate(self.layout.channels) if name in channels]
         names = tuple(self.layout.channels[i] for i in kept)
         layout = Layout(self.layout.width, self.layout.height, self.layout.window, names)
         return Picture(layout, self.facts, np.ascontiguousarray(self.pixels[..., kept]))

@@ -31,6 +31,7 @@ class Order:
     integrator: str = ""  # "": the default
     aovs: tuple[str, ...] = ()
     adaptive: bool = False
+    independent_pixels: bool = False
 
     def encode(self) -> bytes:
         return json.dumps(asdict(self)).encode()
@@ -50,6 +51,9 @@ class Work:
     load_seconds: float = 0.0  # reading and building the scene
     rays: int = 0
     invalid_samples: int = 0
+
+    def __add__(self, other: Work) -> Work:
+        return Work(*(getattr(self, name) + getattr(other, name) for name in self.__dataclass_fields__))
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,8 @@
 import os
 import resource
 import signal
-import socket
 import subprocess
-import sys
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -27,6 +23,7 @@ from engine.farm.farm import Farm, FarmOptions, Progress
 from engine.farm.merge import Sums
 from engine.farm.problems import FarmError
 from engine.farm.ranges import Order, Range
+from tests.farm.machines import free_port, is_open, processes, started, wait_for
 from tests.render.build import Builder, camera, floor, grey
 
 AOVS = ("depth", "albedo", "object_index")
@@ -121,44 +118,6 @@ def test_a_bad_scene_is_told_before_any_worker_has_it(tmp_path: Path) -> None:
 # -- What befalls workers
 
 
-def started(*words: str, setup: Callable[[], None] | None = None, **env: str) -> subprocess.Popen[bytes]:
-    """A process with a group of its own: killed or stopped, it is a machine that is."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "engine.farm", *words],
-        cwd=ROOT,
-        env={**os.environ, **env},
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-        preexec_fn=setup,  # noqa: PLW1509
-    )
-
-
-def wait_for(condition: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 300
-    while not condition():
-        assert time.monotonic() < deadline, "a machine under load; or it will never be"
-        time.sleep(0.2)
-
-
-def is_open(port: int) -> bool:
-    with socket.socket() as connection:
-        return connection.connect_ex(("127.0.0.1", port)) == 0
-
-
-@contextmanager
-def processes() -> Iterator[list[subprocess.Popen[bytes]]]:
-    all_of: list[subprocess.Popen[bytes]] = []
-    try:
-        yield all_of
-    finally:
-        for process in all_of:
-            with suppress(ProcessLookupError):  # ended by itself
-                os.killpg(process.pid, signal.SIGCONT)
-                os.killpg(process.pid, signal.SIGKILL)
-            process.wait(10)
-
-
 def small_disk() -> None:
     """No file may grow beyond a few kilobytes, as where the disk is full."""
     resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))
@@ -169,7 +128,7 @@ def small_disk() -> None:
 def test_killed_stopped_added_and_full_workers_change_no_bit(
     scene: Path, tmp_path: Path, glimmer_command: Path
 ) -> None:
-    port = 18786
+    port = free_port()
     lines: list[str] = []
     address = f"tcp://127.0.0.1:{port}"
     other = tmp_path / "glimmer"

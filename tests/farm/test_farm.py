@@ -212,4 +212,4 @@ def test_the_error_ends_it_at_the_same_range_for_any_number_of_workers(options: 
     assert len({bits for bits, _, _ in found}) == 1
     report = found[0][1]
     assert report["ranges"] in (16, 32, 64, 128) and report["error"]["high"] <= 0.05
-    assert [point[1] for point in report["curve"]] == [32 * 2**i for i in range(len(report["curve"]))]
+    assert [point[2] for point in report["curve"]] == [32 * 2**i for i in range(len(report["curve"]))]
