@@ -12,7 +12,7 @@ import bpy
 
 from . import reports
 from .export.camera import export_camera
-from .export.film import export_film, export_settings, note_missing_passes
+from .export.film import export_film, export_settings, full_shape, note_missing_passes
 from .export.instance import BulkReader
 from .export.scene import Exported, View, export_scene
 from .export.stereo import active_views, eye_of
@@ -124,7 +124,7 @@ def _camera_view(
             film,
             export_camera(
                 evaluated,
-                (film.width, film.height),
+                full_shape(scene.render),
                 notices,
                 eye_of(engine, evaluated, view_name) if is_eye and evaluated is not None else None,
             ),

@@ -17,19 +17,19 @@ if TYPE_CHECKING:
     import bpy
 
 
-def side_in_widths(fit: str, size: tuple[int, int]) -> float:
+def side_in_widths(fit: str, size: tuple[float, float]) -> float:
     """The side of a picture of size (width, height) that Blender measures a camera by, AUTO: the longer one."""
     width, height = size
     return 1.0 if fit == "HORIZONTAL" or (fit == "AUTO" and width >= height) else height / width
 
 
-def perspective(lens: float, sensor: tuple[float, float], fit: str, size: tuple[int, int]) -> Perspective:
-    """Of a picture of size (width, height) with square pixels. AUTO has the sensor's width on the longer side."""
+def perspective(lens: float, sensor: tuple[float, float], fit: str, size: tuple[float, float]) -> Perspective:
+    """Of a picture of size (width, height). AUTO has the sensor's width on the longer side."""
     fitted = sensor[1] if fit == "VERTICAL" else sensor[0]
     return Perspective(degrees(2.0 * atan(0.5 * fitted / lens / side_in_widths(fit, size))))
 
 
-def orthographic(scale: float, fit: str, size: tuple[int, int]) -> Orthographic:
+def orthographic(scale: float, fit: str, size: tuple[float, float]) -> Orthographic:
     """scale: what the measured side of the picture shows, a length."""
     return Orthographic(scale / side_in_widths(fit, size))
 
@@ -66,9 +66,9 @@ def _normalized(vector: list[float]) -> list[float]:
 
 
 def export_camera(
-    camera_object: bpy.types.Object | None, size: tuple[int, int], notices: Notices, eye: Eye | None = None
+    camera_object: bpy.types.Object | None, size: tuple[float, float], notices: Notices, eye: Eye | None = None
 ) -> Camera:
-    """size: (width, height) of the whole picture in pixels. eye: of a view of a stereoscopic render."""
+    """size: (width, height) of the whole picture, in any unit. eye: of a view of a stereoscopic render."""
     if camera_object is None or camera_object.type != "CAMERA":
         raise GlimmerError("The scene has no camera: add one, or set it under Scene properties > Scene > Camera")
     data: bpy.types.Camera = camera_object.data
@@ -96,14 +96,14 @@ def export_camera(
     )
 
 
-def _projection(data: bpy.types.Camera, size: tuple[int, int]) -> Projection:
+def _projection(data: bpy.types.Camera, size: tuple[float, float]) -> Projection:
     if data.type == "ORTHO":
         return orthographic(data.ortho_scale, data.sensor_fit, size)
     return perspective(data.lens, (data.sensor_width, data.sensor_height), data.sensor_fit, size)
 
 
 def _panorama(
-    camera_object: bpy.types.Object, size: tuple[int, int], frame: Window = WHOLE, shift_x: float | None = None
+    camera_object: bpy.types.Object, size: tuple[float, float], frame: Window = WHOLE, shift_x: float | None = None
 ) -> Panorama:
     """frame: what is shown of the picture, of size (width, height). The shift of a panorama is in parts of it."""
     data = camera_object.data
@@ -138,7 +138,7 @@ def export_view(
     camera_object: bpy.types.Object | None,
     notices: Notices,
     frame: Window,
-    size: tuple[int, int],
+    size: tuple[float, float],
 ) -> Camera:
     """What a 3D view looks through. camera_object: evaluated, for a view through it, whose picture of size (width,
     height) is at `frame` (see window_around)."""

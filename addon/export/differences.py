@@ -12,7 +12,7 @@ import numpy as np
 from ..scene.problems import GlimmerError, Notice, Notices
 from ..scene.program import Texture
 from .camera import export_camera
-from .film import export_film, note_missing_passes
+from .film import export_film, full_shape, note_missing_passes
 from .motion import read_shutter
 from .scene import take_notices
 from .translate.image import Images
@@ -53,10 +53,10 @@ def find_differences(depsgraph: bpy.types.Depsgraph, version: tuple[int, ...]) -
     notices, scene = Notices(), depsgraph.scene_eval
     images = BlankImages(scene.frame_current)
     try:
-        film = export_film(scene, notices)
+        export_film(scene, notices)
         note_missing_passes(depsgraph.view_layer_eval, notices)
         camera = scene.camera.evaluated_get(depsgraph) if scene.camera is not None else None
-        export_camera(camera, (film.width, film.height), notices)
+        export_camera(camera, full_shape(scene.render), notices)
         if depsgraph.view_layer_eval.use_motion_blur:
             read_shutter(scene, notices)
     except GlimmerError as error:

@@ -11,6 +11,7 @@ from ..film import denoise
 from ..film.passes import COMBINED, DENOISED_BY, NOISY, RenderPass, engine_names, missing
 from ..scene.description import Film, Mist, RenderSettings
 from ..scene.problems import GlimmerError, Notices
+from .left_out import note_light_left_out
 
 if TYPE_CHECKING:
     import bpy
@@ -26,6 +27,12 @@ def full_size(render: bpy.types.RenderSettings) -> tuple[int, int]:
     """(width, height) of the whole picture, in Blender's own integer arithmetic."""
     scale = render.resolution_percentage
     return max(render.resolution_x * scale // 100, 1), max(render.resolution_y * scale // 100, 1)
+
+
+def full_shape(render: bpy.types.RenderSettings) -> tuple[float, float]:
+    """(width, height) of the whole picture as it is looked at, in heights of a pixel."""
+    width, height = full_size(render)
+    return width * render.pixel_aspect_x / render.pixel_aspect_y, float(height)
 
 
 def border_window(size: tuple[int, int], border: tuple[float, float, float, float]) -> tuple[int, int, int, int]:
@@ -51,13 +58,7 @@ def film_exposure(scene: bpy.types.Scene) -> float:
 
 def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
     render = scene.render
-    if render.pixel_aspect_x != render.pixel_aspect_y:
-        raise GlimmerError(
-            f"Pixels of aspect {render.pixel_aspect_x:g} : {render.pixel_aspect_y:g} are not supported; set both under"
-            " Output properties > Format > Aspect to 1"
-        )
-    if getattr(getattr(scene, "cycles", None), "use_fast_gi", False):
-        notices.add("", "Fast GI Approximation is not done; light bounces as it does without it")
+    note_light_left_out(scene, notices)
     size = full_size(render)
     crop = None
     if render.use_border:
@@ -71,6 +72,7 @@ def export_film(scene: bpy.types.Scene, notices: Notices) -> Film:
         crop=crop,
         exposure=film_exposure(scene),
         mist=_mist(scene.world),
+        pixel_aspect=render.pixel_aspect_x / render.pixel_aspect_y,
         occlusion_distance=10.0 if scene.world is None else scene.world.light_settings.distance,
         **filter_settings(scene.glimmer),
         **transparency(scene),

@@ -92,6 +92,20 @@ def _is_culled(item: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     return any(getattr(settings, name) and getattr(own, name) for name in ("use_camera_cull", "use_distance_cull"))
 
 
+def _is_diced(item: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether Cycles subdivides a mesh as finely as pixels are: a switch of its last modifier, in Blender before 5.0 of
+    the object, and there among what is experimental."""
+    modifiers = [modifier for modifier in getattr(item, "modifiers", ()) if modifier.show_render]
+    if not modifiers or modifiers[-1].type != "SUBSURF":
+        return False
+    if hasattr(modifiers[-1], "use_adaptive_subdivision"):
+        return bool(modifiers[-1].use_adaptive_subdivision)
+    own, settings = getattr(item, "cycles", None), getattr(scene, "cycles", None)
+    if own is None or settings is None:
+        return False
+    return bool(own.use_adaptive_subdivision) and settings.feature_set == "EXPERIMENTAL"
+
+
 def note_differences(item: bpy.types.Object, scene: bpy.types.Scene, notices: Notices) -> None:
     """What an object asks for that is not rendered."""
     where = place(item.name)
@@ -103,6 +117,8 @@ def note_differences(item: bpy.types.Object, scene: bpy.types.Scene, notices: No
         item, ("shadow_terminator_shading_offset", "shadow_terminator_offset"), 0.0
     ):
         notices.add(where, "the shading offset of the shadow terminator is not supported; it is 0")
+    if _is_diced(item, scene):
+        notices.add(where, "adaptive subdivision is not done; it has the levels that its modifier has for renders")
     linking = getattr(item, "light_linking", None)
     if linking is None:
         return

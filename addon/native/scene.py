@@ -155,6 +155,7 @@ class NativeScene:
         if film.transparent_glass is not None:
             desc.transparent_glass = film.transparent_glass
         desc.occlusion_distance = film.occlusion_distance
+        desc.pixel_aspect = film.pixel_aspect
         desc.mist_start, desc.mist_depth, desc.mist_falloff = film.mist.start, film.mist.depth, film.mist.falloff
         self.library.call("glimmer_scene_set_film", self.handle, byref(desc))
 

@@ -308,6 +308,7 @@ class FilmDesc(ctypes.Structure):
         ("mist_depth", c_float),
         ("mist_falloff", c_float),
         ("occlusion_distance", c_float),
+        ("pixel_aspect", c_float),
     ]
 
 

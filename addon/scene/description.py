@@ -68,6 +68,7 @@ class Film:
     transparent_glass: float | None = None  # GGX width of the glass through which that holds; None: of none
     mist: Mist = Mist()
     occlusion_distance: float = 10.0  # of the ambient occlusion pass: what is farther does not count
+    pixel_aspect: float = 1.0  # width / height of a pixel
 
     @property
     def window(self) -> tuple[int, int, int, int]:

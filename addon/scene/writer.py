@@ -272,6 +272,8 @@ def _film(film: d.Film) -> Json:
         result["transparent_glass"] = film.transparent_glass
     if film.occlusion_distance != d.Film.occlusion_distance:
         result["occlusion_distance"] = film.occlusion_distance
+    if film.pixel_aspect != 1.0:
+        result["pixel_aspect"] = film.pixel_aspect
     if film.mist != d.Mist():
         result["mist"] = {"start": film.mist.start, "depth": film.mist.depth, "falloff": film.mist.falloff}
     return result

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..export.camera import export_view
-from ..export.film import export_view_settings, film_exposure, filter_settings, full_size, transparency
+from ..export.film import export_view_settings, film_exposure, filter_settings, full_shape, transparency
 from ..export.instance import BulkReader
 from ..export.kept import Kept
 from ..export.scene import View, export_scene
@@ -237,12 +237,12 @@ def _frame(
 
 def _picture(
     context: bpy.types.Context, scene: bpy.types.Scene, camera: bpy.types.Object | None
-) -> tuple[tuple[float, float, float, float], tuple[int, int]]:
-    """Where the picture of the camera that a view looks through is, and its size in pixels."""
-    size = full_size(scene.render)
+) -> tuple[tuple[float, float, float, float], tuple[float, float]]:
+    """Where the picture of the camera that a view looks through is, and its shape (see full_shape)."""
+    shape = full_shape(scene.render)
     if context.region_data.view_perspective != "CAMERA" or camera is None or camera.type != "CAMERA":
-        return (0.0, 0.0, 1.0, 1.0), size
-    return _frame(context.region_data, scene, camera), size
+        return (0.0, 0.0, 1.0, 1.0), shape
+    return _frame(context.region_data, scene, camera), shape
 
 
 def _view_state(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene) -> tuple[Any, ...]:

@@ -128,6 +128,7 @@ Picture merge(const std::vector<Picture> &pictures) {
     Picture result;
     result.width = pictures[0].width;
     result.height = pictures[0].height;
+    result.pixel_aspect = pictures[0].pixel_aspect;
     result.window = pictures[0].window;
     result.info = merged_info(pictures);
     for (const std::string &channel : pictures[0].channels)

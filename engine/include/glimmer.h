@@ -466,6 +466,7 @@ typedef struct glimmer_film_desc {
      * `mist_falloff`. Defaults 5, 25, 2. */
     float mist_start, mist_depth, mist_falloff;
     float occlusion_distance; /* of the ambient occlusion pass, >= 0; default 10 */
+    float pixel_aspect;       /* width / height of a pixel, 0.001 to 1000; default 1 */
 } glimmer_film_desc;
 
 GLIMMER_API void glimmer_film_init(glimmer_film_desc *desc);

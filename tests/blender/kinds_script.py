@@ -23,10 +23,12 @@ from shading_cases import make
 
 BLOCK = 10  # pixels
 SAMPLES = 64
-CASES: dict[str, Callable[[], None]] = {}
+Build = Callable[[], dict[str, Any] | None]
+"""Builds a scene, and returns the settings of Cycles' that are its own."""
+CASES: dict[str, Build] = {}
 
 
-def case(build: Callable[[], None]) -> Callable[[], None]:
+def case(build: Build) -> Build:
     CASES[build.__name__] = build
     return build
 
@@ -441,6 +443,31 @@ def culled() -> None:
 
 
 @case
+def diced() -> dict[str, Any] | None:
+    """Cycles subdivides a cube into a ball of pixels."""
+    mesh = bpy.data.meshes.new("Cube")
+    shape = bmesh.new()
+    bmesh.ops.create_cube(shape, size=2.0)
+    shape.to_mesh(mesh)
+    shape.free()
+    modifier = (item := inside.add_mesh("Cube", mesh, normals(), (0.0, 0.0, 1.0))).modifiers.new("Smooth", "SUBSURF")
+    modifier.levels = modifier.render_levels = 1
+    if hasattr(modifier, "use_adaptive_subdivision"):  # 5.0 on
+        modifier.use_adaptive_subdivision = True
+        return None
+    item.cycles.use_adaptive_subdivision = True
+    return {"feature_set": "EXPERIMENTAL"}
+
+
+@case
+def light_left_out() -> dict[str, Any]:
+    """Light beneath a pane of glass that casts shadows."""
+    inside.plane("Floor", 5.0, inside.material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8, 1.0)))
+    sheet(1.0, glass())
+    return {"caustics_refractive": False, "transmission_bounces": 3}
+
+
+@case
 def lamps_that_are_not_normalized() -> None:
     if "normalize" not in bpy.types.PointLight.bl_rna.properties:
         return
@@ -470,6 +497,35 @@ def layer_without_sky() -> None:
 def layer_without_surfaces() -> None:
     bpy.context.view_layer.use_solid = False
     inside.ball("Ball", material())
+
+
+def wide_pixels(**settings: Any) -> None:
+    inside.ball("Ball", normals(), segments=12)
+    bpy.context.scene.render.pixel_aspect_x, bpy.context.scene.render.pixel_aspect_y = 3.0, 2.0
+    camera = bpy.context.scene.camera.data
+    camera.shift_x, camera.shift_y = 0.1, -0.2
+    for name, value in settings.items():
+        setattr(camera, name, value)
+
+
+@case
+def wide_pixels_of_a_lens() -> None:
+    wide_pixels(sensor_fit="VERTICAL", lens=30.0)
+    focus = bpy.context.scene.camera.data.dof
+    focus.use_dof, focus.focus_distance, focus.aperture_fstop, focus.aperture_ratio = True, 5.0, 0.05, 2.0
+
+
+@case
+def wide_pixels_without_perspective() -> None:
+    wide_pixels(type="ORTHO", ortho_scale=4.0)
+
+
+@case
+def wide_pixels_of_a_fisheye() -> None:
+    wide_pixels(type="PANO")
+    camera = bpy.context.scene.camera.data
+    settings = camera if hasattr(camera, "panorama_type") else camera.cycles
+    settings.panorama_type, settings.fisheye_lens = "FISHEYE_EQUISOLID", 12.0
 
 
 @case
@@ -600,15 +656,16 @@ def blocks(picture: Any) -> Any:
     return picture[:height, :width].reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, 3).mean(axis=(1, 3))
 
 
-def compared(out: Path, build: Callable[[], None]) -> dict[str, Any]:
+def compared(out: Path, build: Build) -> dict[str, Any]:
     scene = inside.empty_scene((0.3, 0.35, 0.4))
     scene.timeline_markers.clear()
     scene.background_set, scene.render.use_simplify = None, False
     layer = bpy.context.view_layer
     layer.use_sky = layer.use_solid = True
-    build()
+    scene.render.pixel_aspect_x = scene.render.pixel_aspect_y = 1.0
+    own = build() or {}
     scene = bpy.context.scene
-    set_up_cycles(scene, samples=SAMPLES)
+    set_up_cycles(scene, samples=SAMPLES, **own)
     scene.glimmer.samples, scene.glimmer.filter = SAMPLES, "BOX"
     theirs, mine = (blocks(inside.picture(out.with_name("picture.exr"), engine, 1)) for engine in ("CYCLES", "GLIMMER"))
     from glimmer import reports

@@ -17,7 +17,12 @@ TOLD = {
     "world_without_its_image": "as in Cycles",
 }
 # What differs, and is told.
-DIFFERS = {"normals_that_face_away": "custom normals that face away", "culled": "culling by the camera"}
+DIFFERS = {
+    "normals_that_face_away": "custom normals that face away",
+    "culled": "culling by the camera",
+    "diced": "adaptive subdivision",
+    "light_left_out": "(no refractive caustics, at most 3 transmission bounces)",
+}
 
 # What Blender hands over from 5.0 on.
 MADE = ("made_instances", "made_by_a_curve", "made_within_collections")

@@ -17,6 +17,9 @@ SCRIPT = Path(__file__).with_name("panels_script.py")
 NEEDS_NO_PANEL = {
     "Camera.angle": "the lens seen as an angle, which Blender's panel shows for another unit",
     "CyclesLightSettings.use_multiple_importance_sampling": "only Cycles' picture depends on it, which a notice says",
+    "CyclesObjectSettings.use_adaptive_subdivision": "only Cycles' picture depends on it, which a notice says",
+    "CyclesRenderSettings.blur_glossy": "only Cycles' picture depends on it, which a notice says",
+    "CyclesRenderSettings.feature_set": "only Cycles' picture depends on it, which a notice says",
     "CyclesRenderSettings.filter_width": "Glimmer's own is meant",
     "CyclesRenderSettings.max_bounces": "Glimmer's own, and those of lamps and the world are meant",
     "CyclesRenderSettings.samples": "Glimmer's own is meant",

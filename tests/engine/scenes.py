@@ -85,6 +85,7 @@ def every_key(folder: Path) -> Scene:
             "filter": {"type": "blackman_harris", "width": 1.5},
             "crop": [2, 1, 14, 11],
             "exposure": 1.25,
+            "pixel_aspect": 0.95,
             "transparent": False,
             "transparent_glass": 0.01,
             "mist": {"start": 3, "depth": 20, "falloff": 1},

@@ -48,12 +48,8 @@ def some_scenes(folder: Path) -> dict[str, Scene]:
 @cache
 def built(repository: Path, preset: str) -> Path:
     """The preset's folder of executables, compiled as far as these tests need it."""
-    targets = [
-        "glimmer_command",
-        "glimmer_probe",
-        "glimmer_example",
-        *(f"fuzz_{name}" for name in FUZZERS if preset == "fuzz"),
-    ]
+    others = [f"fuzz_{name}" for name in FUZZERS] if preset == "fuzz" else ["glimmer_probe", "glimmer_example"]
+    targets = ["glimmer_command", *others]
     for command in (["cmake", "--preset", preset], ["cmake", "--build", "--preset", preset, "--target", *targets]):
         done = subprocess.run(command, cwd=repository / "engine", capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr

@@ -45,25 +45,30 @@ def test_what_is_the_same_everywhere_has_no_noise(width: float, crop: tuple[int,
         assert np.abs(picture / (0.25, 1.5, 40) - 1).max() < ROUNDING
 
 
-@pytest.mark.parametrize(("width", "kind"), [(3.0, "mesh"), (3.0, "sphere"), (4.9, "mesh")])
-def test_a_corner_is_seen_as_the_integral_of_the_filter(width: float, kind: str) -> None:
+@pytest.mark.parametrize(
+    ("width", "kind", "aspect"),
+    [(3.0, "mesh", 1.0), (3.0, "sphere", 1.0), (4.9, "mesh", 1.0), (3.0, "mesh", 2.5), (3.0, "sphere", 0.4)],
+)
+def test_a_corner_is_seen_as_the_integral_of_the_filter(width: float, kind: str, aspect: float) -> None:
     """A shining quadrant, which ends within a pixel, behind a frame: in every pixel around its corner. Of a sphere in
-    place of the mesh, more camera rays are a part of the picture."""
-    film, edge_x, edge_y = d.Film(9, 7, None, FILTER, width), 4.3, 3.6
-    view = d.Camera(look_at((0, -4, 0), (0, 0, 0)), d.Orthographic(9))  # a unit is a pixel
-    scene = Builder(view)
+    place of the mesh, more camera rays are a part of the picture. aspect: width / height of a pixel."""
+    film, edge_x, edge_y = d.Film(9, 7, None, FILTER, width, pixel_aspect=aspect), 4.3, 3.6
+    view = d.Camera(look_at((0, -4, 0), (0, 0, 0)), d.Orthographic(9 * aspect))  # a unit is the height of a pixel
+    scene, corner_x = Builder(view), (edge_x - 4.5) * aspect
     if kind == "mesh":
-        scene.mesh(quad((edge_x - 4.5 - 20, 0, 3.5 - edge_y + 20), (20, 0, 0), (0, 0, 20)), d.Light(WHITE))
+        scene.mesh(quad((corner_x - 20, 0, 3.5 - edge_y + 20), (20, 0, 0), (0, 0, 20)), d.Light(WHITE))
     else:
         scene.sphere((0, 300, 0), 200, d.Light(WHITE))
-        scene.mesh(quad((edge_x - 4.5 + 20, 0, 0), (20, 0, 0), (0, 0, 50)), d.Lambert(d.BLACK))
+        scene.mesh(quad((corner_x + 20, 0, 0), (20, 0, 0), (0, 0, 50)), d.Lambert(d.BLACK))
         scene.mesh(quad((0, 0, 3.5 - edge_y - 20), (50, 0, 0), (0, 0, 20)), d.Lambert(d.BLACK))
     across = np.array([window_below(edge_x - x - 0.5, width) for x in range(9)])
     down = np.array([window_below(edge_y - y - 0.5, width) for y in range(7)])
     expected = np.outer(down, across)
     told = expected > 0.1  # of less, many pictures would tell little
     pictures = Pictures(Measurement(filmed(scene, view, film), "path", samples=8))
-    check_mean(lambda seed: pictures(seed)[..., 0][told], expected[told], within=0.15, what=f"{kind}, {width}")
+    check_mean(
+        lambda seed: pictures(seed)[..., 0][told], expected[told], within=0.15, what=f"{kind}, {width}, {aspect}"
+    )
     assert not pictures(0)[expected == 0].any()
 
 

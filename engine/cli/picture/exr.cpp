@@ -69,6 +69,7 @@ Imf::Header header_of(const Picture &picture) {
     Imf::Header header(Imath::Box2i(Imath::V2i(0, 0), corner(picture.width, picture.height)),
                        Imath::Box2i(first, corner(picture.window[2], picture.window[3])));
     header.compression() = Imf::ZIP_COMPRESSION;
+    header.pixelAspectRatio() = picture.pixel_aspect;
     for (const std::string &channel : picture.channels)
         header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
     const PictureInfo &info = picture.info;
@@ -159,6 +160,8 @@ Picture read_picture(const std::filesystem::path &path) {
         fail("was not written by glimmer: it has no glimmer:spp, glimmer:seed or glimmer:scene");
     picture.width = static_cast<uint32_t>(header.full_width);
     picture.height = static_cast<uint32_t>(header.full_height);
+    if (const auto aspect = attribute<float>(header, "PixelAspectRatio"); aspect > 0)
+        picture.pixel_aspect = aspect;
     picture.window = {static_cast<uint32_t>(header.x), static_cast<uint32_t>(header.y),
                       static_cast<uint32_t>(header.x + header.width), static_cast<uint32_t>(header.y + header.height)};
     picture.channels = header.channels;

@@ -20,6 +20,7 @@ struct PictureInfo {
 
 struct Picture {
     uint32_t width = 0, height = 0;    ///< of the whole picture
+    float pixel_aspect = 1;            ///< width / height of a pixel
     std::array<uint32_t, 4> window{};  ///< x0, y0, x1, y1: the part that is there
     std::vector<std::string> channels; ///< "R", "G", "B", "stderr.R", ..., "depth.Z"
     std::vector<float> pixels;         ///< (window height, window width, channels), top row first

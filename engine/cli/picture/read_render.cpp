@@ -18,6 +18,7 @@ Picture read_render(glimmer_render *render, const Film &film, uint64_t passes, b
     Picture picture;
     picture.width = film.width;
     picture.height = film.height;
+    picture.pixel_aspect = film.pixel_aspect;
     picture.window = film.crop;
 
     passes |= 1ull << GLIMMER_PASS_COMBINED;

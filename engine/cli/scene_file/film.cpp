@@ -46,7 +46,7 @@ void read_mist(const Value &mist, glimmer_film_desc &desc) {
 
 Film read_film(const Value &value, glimmer_scene *scene) {
     value.expect_object({"width", "height", "filter", "crop", "exposure", "transparent", "transparent_glass", "mist",
-                         "occlusion_distance"});
+                         "occlusion_distance", "pixel_aspect"});
     glimmer_film_desc desc;
     glimmer_film_init(&desc);
     Film film;
@@ -61,6 +61,8 @@ Film read_film(const Value &value, glimmer_scene *scene) {
     film.transparent = desc.transparent != 0;
     if (const auto distance = value.find("occlusion_distance"))
         desc.occlusion_distance = distance->single(kNonNegative);
+    if (const auto aspect = value.find("pixel_aspect"))
+        film.pixel_aspect = desc.pixel_aspect = aspect->single(kPositive);
     if (const auto mist = value.find("mist"))
         read_mist(*mist, desc);
     if (const auto crop = value.find("crop")) {

@@ -14,6 +14,7 @@ namespace glimmer {
 
 struct Film {
     uint32_t width = 0, height = 0;
+    float pixel_aspect = 1;         ///< width / height of a pixel
     std::array<uint32_t, 4> crop{}; ///< x0, y0, x1, y1 of what is rendered; the whole picture without a crop
     bool transparent = false;       ///< the environment is not seen, and pictures have alpha
 

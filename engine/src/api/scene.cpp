@@ -529,6 +529,7 @@ void glimmer_film_init(glimmer_film_desc *desc) {
     desc->transparent_glass = -1;
     desc->mist_start = 5, desc->mist_depth = 25, desc->mist_falloff = 2;
     desc->occlusion_distance = 10;
+    desc->pixel_aspect = 1;
 }
 
 glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_desc *desc) {
@@ -558,6 +559,8 @@ glimmer_result glimmer_scene_set_film(glimmer_scene *scene, const glimmer_film_d
         check_least(double(d.mist_depth), 0, "film: mist_depth");
         check_least(double(d.mist_falloff), 0, "film: mist_falloff");
         check_least(double(d.occlusion_distance), 0, "film: occlusion_distance");
+        if (!(d.pixel_aspect >= 1e-3f && d.pixel_aspect <= 1e3f))
+            fail_argument("film: pixel_aspect is " + text(double(d.pixel_aspect)) + "; allowed: 0.001 to 1000");
         s.film = d;
     });
 }

@@ -41,7 +41,7 @@ Vec2f filter_margin(const FilmSettings &film) {
 }
 
 Camera make_camera(const glimmer_camera_desc &c, const Affine &to_world, const FilmSettings &film) {
-    const float aspect = float(film.height) / float(film.width);
+    const float aspect = film.aspect();
     if (c.type > GLIMMER_ORTHOGRAPHIC) {
         const Panorama panorama = make_panorama(c, film);
         return PanoramicCamera{camera_base(c, to_world, aspect, panorama.angle_per_width(aspect) / 2), panorama};
@@ -66,8 +66,8 @@ Panorama make_panorama(const glimmer_camera_desc &c, const FilmSettings &film) {
     Panorama p;
     p.type = PanoramaType(int(c.type) - int(GLIMMER_EQUIRECTANGULAR));
     p.window = {{float(c.window[0]), float(c.window[1])}, {float(c.window[2]), float(c.window[3])}};
-    p.aspect =
-        float(double(film.height) / double(film.width) * (c.window[2] - c.window[0]) / (c.window[3] - c.window[1]));
+    p.aspect = float(double(film.height) / (double(film.width) * double(film.pixel_aspect)) *
+                     (c.window[2] - c.window[0]) / (c.window[3] - c.window[1]));
     for (int i = 0; i < 2; ++i) {
         p.longitude[i] = float(c.longitude[i] * kDegree);
         p.latitude[i] = float(c.type == GLIMMER_CYLINDRICAL ? c.elevation[i] : c.latitude[i] * kDegree);
@@ -104,6 +104,7 @@ void SceneBuilder::build_camera_and_film() {
     film.transparent = f.transparent != 0;
     film.transparent_width = f.transparent_glass;
     film.occlusion_distance = f.occlusion_distance;
+    film.pixel_aspect = f.pixel_aspect;
     film.mist_start = f.mist_start, film.mist_depth = f.mist_depth, film.mist_falloff = f.mist_falloff;
     if (f.filter == GLIMMER_BLACKMAN_HARRIS)
         film.filter = PixelFilter::blackman_harris(f.filter_width);

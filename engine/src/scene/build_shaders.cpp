@@ -94,7 +94,7 @@ CameraFrame SceneBuilder::camera_frame() const {
     frame.to_camera = {Vec3f(to_world.linear.column(0)), Vec3f(to_world.linear.column(1)),
                        -Vec3f(to_world.linear.column(2))};
     frame.position = Vec3f(to_world.translation);
-    frame.aspect = float(scene_.film.height) / float(scene_.film.width);
+    frame.aspect = scene_.film.aspect();
     if (c.type > GLIMMER_ORTHOGRAPHIC) {
         frame.set_panorama(make_panorama(c, scene_.film));
         frame.half_width = 0.5f;

@@ -28,6 +28,10 @@ struct FilmSettings {
     float transparent_width = -1;
     float mist_start = 5, mist_depth = 25, mist_falloff = 2;
     float occlusion_distance = 10;
+    float pixel_aspect = 1; ///< width / height of a pixel
+
+    /// height / width of the picture
+    float aspect() const { return float(height) / (float(width) * pixel_aspect); }
 };
 
 /// What passes know an object, or a sphere, by.

@@ -9,7 +9,7 @@ from scipy import stats
 
 from tests.engine import scenes
 from tests.engine.command.pictures import merge
-from tests.engine.scenes import hazy_moon, read_exr, render
+from tests.engine.scenes import changed, hazy_moon, read_exr, render
 from tests.engine.significance import LEVEL
 
 pytestmark = pytest.mark.usefixtures("glimmer_command")
@@ -77,6 +77,15 @@ def test_merged_picture_can_be_merged(tmp_path: Path) -> None:
     assert read_exr(tmp_path / "merged.exr").attributes["glimmer:spp"] == 6
     done = merge(tmp_path, "ab", "b")
     assert done.returncode == 1 and "has the seed 1 as" in done.stderr
+
+
+def test_merged_pixels_keep_their_aspect(tmp_path: Path) -> None:
+    scene = changed(hazy_moon(), ("film", "pixel_aspect"), 1.5)
+    for seed, name in enumerate("ab"):
+        picture = render(tmp_path, scene, "--spp", 2, "--seed", seed, name=name)
+        assert picture.attributes["PixelAspectRatio"] == 1.5
+    assert merge(tmp_path, "a", "b").returncode == 0
+    assert read_exr(tmp_path / "merged.exr").attributes["PixelAspectRatio"] == 1.5
 
 
 def test_merge_into_one_of_its_parts(tmp_path: Path) -> None:

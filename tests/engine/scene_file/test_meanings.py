@@ -19,6 +19,7 @@ MEANINGS: list[tuple[tuple[str | int, ...], Any]] = [
     (("film", "filter"), "box"),
     (("film", "filter", "width"), 3),
     (("film", "exposure"), 2),
+    (("film", "pixel_aspect"), 0.8),
     (("camera", "origin", 0), 1),
     (("camera", "target", 0), 1),
     (("camera", "up"), [0.2, 0, 1]),

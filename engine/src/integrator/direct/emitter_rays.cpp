@@ -11,7 +11,8 @@ namespace glimmer {
 EmitterRays::EmitterRays(const Scene &scene, uint32_t rays) : scene_(scene), rays_(rays) {
     if (rays == 0)
         return;
-    const float margin = std::sqrt(2.0f) * scene.film.filter.width() / float(scene.film.width);
+    const float margin =
+        std::hypot(1.0f, 1 / scene.film.pixel_aspect) * scene.film.filter.width() / float(scene.film.width);
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
         if (!is_emissive_sphere(scene.lights[i]))
             continue;
