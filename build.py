@@ -233,7 +233,7 @@ PACKAGES = (
 def wanted_packages(purposes: Iterable[str], blender: Path | None) -> list[str]:
     """The packages for some purposes. A Blender that is not Debian's replaces `blender` and brings its own numpy."""
     wanted = {*purposes, *(["engine"] if "build" in purposes else [])}
-    foreign = blender is not None and not blender.resolve().is_relative_to("/usr/bin")
+    foreign = blender is not None and (has_module(blender) or not blender.resolve().is_relative_to("/usr/bin"))
     return [p.name for p in PACKAGES if p.purpose in wanted and not (foreign and p.purpose == "render")]
 
 
@@ -324,11 +324,23 @@ def find_blender(given: str | None) -> Path | None:
     return Path(found) if found else None
 
 
+def has_module(blender: Path) -> bool:
+    """Whether it is a Python with the bpy module, which was given in Blender's place."""
+    return blender.name.startswith("python")
+
+
+def script_runner(blender: Path | None, *options: str) -> list[str | Path]:
+    """What runs the script that comes next inside Blender, or in a Python with the bpy module: ours where there is no
+    Blender. Options are for Blender itself."""
+    if blender is None:
+        return [virtual_environment("bpy")]
+    if has_module(blender):
+        return [blender]
+    return [blender, "-b", "--factory-startup", *options, "--python-exit-code", "1", "--python"]
+
+
 def host_command(blender: Path | None, script: Path) -> list[str | Path]:
-    """The command that runs `script` inside Blender, or inside the bpy module where there is no Blender."""
-    if blender is not None:
-        return [blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python", script, "--"]
-    return [virtual_environment("bpy"), script, "--"]
+    return [*script_runner(blender), script, "--"]
 
 
 def own_python_first(blender: Path | None) -> dict[str, str]:
@@ -570,9 +582,7 @@ def compare(blender: str | None, options: CompareOptions) -> None:
         raise BuildError(f"{options.scene}: no such file")
     executable = setup(blender, ("build", "render", "test"))
     build()
-    host: list[str | Path] = [virtual_environment("bpy")]
-    if executable is not None:
-        host = [executable, "-b", "--factory-startup", "--disable-autoexec", "--python-exit-code", "1", "--python"]
+    host = script_runner(executable, "--disable-autoexec")
     sizes = [f"--{name}={getattr(options, name)}" for name in ("width", "samples", "timeout")]
     said = shlex.join(["python3", "build.py", "compare", options.scene.name, *sizes])
     output = options.output or BUILD / "compare" / options.scene.stem
@@ -686,7 +696,8 @@ def arguments() -> argparse.ArgumentParser:
     with_blender.add_argument(
         "--blender",
         metavar="PATH",
-        help="the Blender to use (default: the one on PATH, else Debian's, else the bpy wheel)",
+        help="the Blender to use (default: the one on PATH, else Debian's, else the bpy wheel); "
+        "`render` and `compare` also take the python of an environment with a bpy module",
     )
 
     def command(name: str, text: str, blender: bool = False) -> argparse.ArgumentParser:

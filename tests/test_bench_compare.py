@@ -2,6 +2,7 @@
 """What tests/bench/compare.py makes of pictures whose difference is known; and the page it writes of a real file."""
 
 import re
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import numpy as np
 import OpenImageIO
 import pytest
 
+import build
 from tests.bench.compare import (
     BLOCK,
     SEEDS,
@@ -92,20 +94,58 @@ def test_png_is_read_back(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read[..., :3], np.round(pixels * 255.0).astype(np.uint8))
 
 
-def test_a_file_is_compared(
-    blender: Path, library_dir: Path, repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.syspath_prepend(str(repository / "tests" / "blender"))
+def in_profile(folder: Path, library_dir: Path, executable: Path | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(build.ROOT / "tests" / "blender"))
     from hosts import environment
 
-    for name, value in environment(tmp_path / "profile", library_dir / "libglimmer.so", blender).items():
+    for name, value in environment(folder, library_dir / "libglimmer.so", executable).items():
         monkeypatch.setenv(name, value)
-    host = [str(blender), "-b", "--factory-startup", "--disable-autoexec", "--python-exit-code", "1", "--python"]
+
+
+def runner(program: Path) -> list[str]:
+    return [str(word) for word in build.script_runner(program, "--disable-autoexec")]
+
+
+@pytest.mark.parametrize("host", ["blender", "newest"])
+def test_a_file_is_compared(
+    host: str,
+    request: pytest.FixtureRequest,
+    library_dir: Path,
+    repository: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    program = request.getfixturevalue("blender" if host == "blender" else "newest_python")
+    in_profile(tmp_path / "profile", library_dir, program if host == "blender" else None, monkeypatch)
     file = repository / "blend_scenes" / "furnace.blend"
-    line = compare(host, file, (24, 16), tmp_path / "page", "a <command>", 100.0)
+    line = compare(runner(program), file, (24, 16), tmp_path / "page", "a <command>", 200.0)
     assert line.startswith("the same picture; ratio of the means")
     page = (tmp_path / "page" / "index.html").read_text()
     assert "furnace.blend" in page
     assert "a &lt;command&gt;" in page
     for name in re.findall(r'src="([^"]+)"', page):
         assert (tmp_path / "page" / name).read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_file_without_a_camera_is_seen_whole(
+    blender: Path, library_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    in_profile(tmp_path / "profile", library_dir, blender, monkeypatch)
+    file = tmp_path / "cube.blend"
+    steps = (
+        "import bpy",
+        "bpy.data.objects.remove(bpy.data.objects['Camera'])",
+        "bpy.data.objects['Cube'].location.x = 100",
+        "bpy.ops.object.light_add(type='SUN')",
+        f"bpy.ops.wm.save_as_mainfile(filepath={str(file)!r})",
+    )
+    words = [str(blender), "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", "; ".join(steps)]
+    subprocess.run(words, check=True, capture_output=True, timeout=200)
+    line = compare(runner(blender), file, (48, 12), tmp_path / "page", "a command", 200.0)
+    assert line.startswith("the same picture")
+    page = (tmp_path / "page" / "index.html").read_text()
+    assert "has no camera; both engines look through &#x27;Compare&#x27;" in page
+    picture = np.asarray(OpenImageIO.ImageBuf(str(tmp_path / "page" / "CYCLES.png")).get_pixels(OpenImageIO.FLOAT))
+    assert np.abs(picture - picture[0, 0]).max() > 0.1  # the cube is there
+    for edge in (picture[0], picture[-1], picture[:, 0], picture[:, -1]):
+        np.testing.assert_allclose(edge, edge[:1].repeat(len(edge), axis=0), atol=0.02)  # and all of it

@@ -98,6 +98,7 @@ def test_a_foreign_blender_replaces_the_packages_of_debians(tmp_path: Path) -> N
     assert {"blender", "python3-numpy"} <= set(build.wanted_packages(("build", "render"), None))
     assert "python3-numpy" in build.wanted_packages(("render",), Path("/usr/bin/blender"))
     assert build.wanted_packages(("render",), foreign) == []
+    assert build.wanted_packages(("render",), Path("/usr/bin/python3")) == []
     assert "python3-venv" not in build.wanted_packages(("build", "render"), None)
 
 

@@ -8,22 +8,26 @@ others through it (seeds, height, width, 3), bottom row first. And ENGINE.json: 
 """
 
 import json
+import math
 import resource
 import sys
 import time
 from pathlib import Path
 from typing import Any
 
-import addon_utils
 import bpy
 import numpy as np
+from mathutils import Euler, Vector
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "blender"))
 
+import addon_utils  # noqa: E402 - a bpy module makes it known when it is imported
 from exact_cycles import set_up_cycles, use_exr  # noqa: E402 - a neighbour by name
 
 BOUNCES = 64
+VIEW = (math.radians(65.0), 0.0, math.radians(35.0))  # of the camera of files that have none
+BOUNDED = ("MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD", "VOLUME")
 KINDS = ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max")
 
 
@@ -50,6 +54,29 @@ def through_view(scene: Any, linear: Any, path: Path) -> Any:
     return read(path)
 
 
+def camera_on_all(scene: Any) -> Any:
+    """A camera that sees all that is rendered, from above and in front of it."""
+    graph = bpy.context.evaluated_depsgraph_get()
+    corners = [
+        item.matrix_world @ Vector(corner)
+        for item in graph.object_instances
+        if item.object.type in BOUNDED and not item.object.hide_render
+        for corner in item.object.bound_box
+    ]
+    if not corners:
+        raise RuntimeError(f"scene '{scene.name}' has no camera and nothing to see")
+    camera = bpy.data.objects.new("Compare", bpy.data.cameras.new("Compare"))
+    scene.collection.objects.link(camera)
+    center = sum(corners, Vector()) / len(corners)
+    radius = max((corner - center).length for corner in corners)
+    height, width = sorted((scene.render.resolution_x, scene.render.resolution_y))
+    distance = radius / math.sin(math.atan(math.tan(0.5 * camera.data.angle) * height / width))
+    turn = Euler(VIEW)
+    camera.location, camera.rotation_euler = center + turn.to_matrix() @ Vector((0.0, 0.0, distance)), turn
+    camera.data.clip_start, camera.data.clip_end = 1e-4 * distance, 2.0 * distance
+    return camera
+
+
 def prepare(scene: Any, job: dict[str, Any]) -> None:
     """What both engines share: the size, and nothing after the render."""
     render = scene.render
@@ -73,8 +100,10 @@ def main(job: dict[str, Any]) -> None:
         addon_utils.enable("cycles", default_set=False)
     bpy.ops.wm.open_mainfile(filepath=job["file"], load_ui=False, use_scripts=False)
     scene, folder, engine = bpy.context.scene, Path(job["folder"]), job["engine"]
+    notices: list[str] = []
     if scene.camera is None:
-        raise RuntimeError(f"scene '{scene.name}' has no camera")
+        scene.camera = next((item for item in scene.objects if item.type == "CAMERA"), None) or camera_on_all(scene)
+        notices = [f"scene '{scene.name}' has no camera; both engines look through '{scene.camera.name}'"]
     prepare(scene, job)
     linear, cpu, wall = [], [], []
     for seed in range(job["seeds"]):
@@ -88,12 +117,11 @@ def main(job: dict[str, Any]) -> None:
         bpy.data.images["Render Result"].save_render(str(path), scene=scene)
         linear.append(read(path))
         path.unlink()
-    notices: list[str] = []
     if engine == "GLIMMER":
         from glimmer import reports
 
         report = reports.last()
-        notices = [*report["export"]["notices"], *report["warnings"]]
+        notices += [*report["export"]["notices"], *report["warnings"]]
     peak_bytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
     scratch = folder / f"{engine}_seed.png"
     total = np.sum(linear, axis=0, dtype=np.float64)
