@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from math import log
+from math import inf, log
 from typing import TYPE_CHECKING, Any
 
 from ..scene.description import (
@@ -44,6 +44,7 @@ from .nodes import Nodes, all_nodes
 from .principled import principled
 from .sockets import Input, Source
 from .subsurface import DISK, Method, most_backward, most_forward, subsurface_method
+from .translate.bounds import interval
 from .translate.image import Images
 from .translate.surface import VOLUME_DENSITY, attribute, normal_input, tangent_input
 from .translate.values import Number, Triple, clamped, clamped_color, math, op, scaled, squared, triple
@@ -342,8 +343,13 @@ class _Shaders:
 
     def albedo(self, source: Source, *names: str) -> Triple:
         color = self.varying(source, *(names or ("Color",)))
-        if isinstance(color, tuple) and max(color) > 1.0:
-            self.nodes.notice(source.node, f"reflects more light than it receives ({max(color):.3g}); cut to 1")
+        most = interval(color)[1]
+        if 1.0 < most < inf:
+            may = "may reflect" if isinstance(color, Op) else "reflects"
+            self.nodes.notice(
+                source.node,
+                f"{may} more light than it receives ({most:.3g}), so that it grows with every bounce; cut to 1",
+            )
         return clamped_color(color) if isinstance(color, tuple) else color
 
     def number(self, source: Source, *names: str, default: float = 0.0) -> float:

@@ -503,6 +503,8 @@ class _Collector:
             self._notices.add(
                 place(name), f"too much hair: {found.kept:.1%} of its strands are rendered, so much the wider"
             )
+        if found.each > 1:
+            self._notices.add(place(name), f"too much hair: one in {found.each} of its strands' points is rendered")
         self._add_object(placed, self._places(placed), found.mesh, (material,))
 
     def _add_points(self, placed: Placed) -> None:

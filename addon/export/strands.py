@@ -24,10 +24,11 @@ from .translate.surface import ACTIVE_UV, GENERATED, STRAND_PREFIX, STRAND_TANGE
 if TYPE_CHECKING:
     import bpy
 
-MOST_TRIANGLES = 4_000_000  # of the hair of one particle system or curves object
+MOST_TRIANGLES = 5_000_000  # of the hair of one particle system or curves object
 # Sides of a tube and parts of a segment (Cycles' curves are smooth between their points), as far as that bound allows.
 FINENESS = ((12, 3), (12, 2), (8, 2), (8, 1), (6, 1), (4, 1), (3, 1))
 LEAST_SMOOTH = 6  # sides; the normals of fewer turn so much within a face that light is lost
+GOLDEN = 0.5 * (5.0**0.5 - 1.0)  # whose multiples are spread evenly, modulo 1
 DEFAULT_RADIUS = 0.005  # of curves without radii; Cycles' own
 
 
@@ -51,6 +52,7 @@ class Strands:
 class Tubes:
     mesh: Mesh
     kept: float  # the part of the strands; the rest is left out, and these are wider for it
+    each: int  # of how many points of a strand one is left
 
 
 # ---- From Blender ------------------------------------------------------------------------------------------------
@@ -230,10 +232,10 @@ def _curve_values(attribute: Any) -> Floats:
 
 def tubes(name: str, strands: Strands) -> Tubes:
     """One mesh of all strands, within MOST_TRIANGLES."""
-    kept = 1.0
+    kept, each = 1.0, 1
     fewest = FINENESS[-1]
     while 2 * fewest[0] * strands.segments > MOST_TRIANGLES and strands.counts.max() > 3:
-        strands = _coarsened(strands)
+        strands, each = _coarsened(strands), 2 * each
     if 2 * fewest[0] * strands.segments > MOST_TRIANGLES:
         most = MOST_TRIANGLES * len(strands.counts) / (2 * fewest[0] * strands.segments)
         before = len(strands.counts)
@@ -241,7 +243,7 @@ def tubes(name: str, strands: Strands) -> Tubes:
         kept = len(strands.counts) / before
     fits = (level for level in FINENESS if 2 * level[0] * level[1] * strands.segments <= MOST_TRIANGLES)
     sides, parts = next(fits, fewest)
-    return Tubes(_mesh(name, subdivided(strands, parts), sides), kept)
+    return Tubes(_mesh(name, subdivided(strands, parts), sides), kept, each)
 
 
 def _coarsened(strands: Strands) -> Strands:
@@ -351,13 +353,16 @@ def _mesh(name: str, strands: Strands, sides: int) -> Mesh:
 
 
 def _frames(points: Floats, counts: NDArray[np.integer]) -> Floats:
-    """(n, 2, 3): two directions across each point's strand, carried along it with as little turn as can be."""
+    """(n, 2, 3): two directions across each point's strand, carried along it with as little turn as can be. They begin
+    at an angle of each strand's own: sides that faced the same ways on all would be too bright or too dark together."""
     starts = np.cumsum(counts) - counts
     along = tangents_along(points, counts)
     result = np.empty((len(points), 2, 3))
     first = along[starts]
     axes = np.eye(3)[np.abs(first).argmin(axis=1)]
     current = _unit(axes - first * (axes * first).sum(axis=1, keepdims=True))
+    turn = 2.0 * pi * (GOLDEN * np.arange(len(starts)) % 1.0)[:, None]
+    current = np.cos(turn) * current + np.sin(turn) * np.cross(first, current)
     alive = np.arange(len(starts))
     for step in range(int(counts.max())):
         alive = alive[counts[alive] > step]

@@ -199,7 +199,7 @@ class Output:
 
 def compile_program(roots: Sequence[Op]) -> Program:
     """A program with one output for each root. Raises TooLargeError."""
-    order = _in_order(roots)
+    order = in_order(roots)
     if len(order) > MOST_INSTRUCTIONS:
         raise TooLargeError(f"it takes {len(order)} operations; allowed: {MOST_INSTRUCTIONS}")
     if len(roots) > MOST_OUTPUTS:
@@ -207,7 +207,7 @@ def compile_program(roots: Sequence[Op]) -> Program:
     return _Compiler(order, roots).program()
 
 
-def _in_order(roots: Iterable[Op]) -> list[Op]:
+def in_order(roots: Iterable[Op]) -> list[Op]:
     """Every operation once, after its inputs."""
     order: list[Op] = []
     done: set[int] = set()

@@ -75,6 +75,26 @@ def test_no_more_triangles_than_the_bound(most: int, monkeypatch: pytest.MonkeyP
     assert area(found.mesh) == pytest.approx(100 * 2.0 * np.pi * 0.01, rel=0.02)
 
 
+def test_coarser_strands_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    many = straight(100, 9)
+    assert tubes("Hair", many).each == 1
+    monkeypatch.setattr(strands, "MOST_TRIANGLES", 3_000)
+    assert tubes("Hair", many).each == 2
+
+
+def test_flat_sides_of_parallel_strands_are_lit_as_round_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    many = straight(500, 2)
+    monkeypatch.setattr(strands, "MOST_TRIANGLES", 500 * 2 * 3)
+    mesh = tubes("Hair", many).mesh
+    a, b, c = (mesh.vertices[mesh.triangles[:, corner]].astype(np.float64) for corner in range(3))
+    faces = np.cross(b - a, c - a) / 2.0
+    areas = np.linalg.norm(faces, axis=1)
+    for angle in np.linspace(0.0, 2.0 * np.pi, 24):
+        # A lamp where the eye is: cosine by cosine over what is seen, which is a quarter of the round side's area.
+        cosines = np.maximum(faces @ [np.cos(angle), np.sin(angle), 0.0] / areas, 0.0)
+        assert (areas * cosines**2).sum() == pytest.approx(500 * 2.0 * np.pi * 0.1 / 4.0, rel=0.01)
+
+
 def test_values_of_a_strand_are_those_of_its_faces() -> None:
     two = Strands(*(getattr(straight(2, 3), name) for name in ("points", "radii", "counts")))
     coloured = Strands(two.points, two.radii, two.counts, values=(("uv", np.array([[0.0, 0.5], [1.0, 0.25]])),))
