@@ -574,6 +574,7 @@ class CompareOptions:
     width: int
     samples: int
     timeout: int
+    step_rate: float | None
     output: Path | None
 
 
@@ -584,6 +585,7 @@ def compare(blender: str | None, options: CompareOptions) -> None:
     build()
     host = script_runner(executable, "--disable-autoexec")
     sizes = [f"--{name}={getattr(options, name)}" for name in ("width", "samples", "timeout")]
+    sizes += [f"--step-rate={options.step_rate}"] if options.step_rate is not None else []
     said = shlex.join(["python3", "build.py", "compare", options.scene.name, *sizes])
     output = options.output or BUILD / "compare" / options.scene.stem
     command: list[str | Path] = [virtual_environment("test"), "-m", "tests.bench.compare", options.scene, *sizes]
@@ -769,6 +771,12 @@ def arguments() -> argparse.ArgumentParser:
     item.add_argument("--width", type=int, default=240, metavar="PIXELS", help="of the pictures (default: 240)")
     item.add_argument("--samples", type=int, default=64, metavar="N", help="samples a pixel of each (default: 64)")
     item.add_argument("--timeout", type=int, default=3600, metavar="SECONDS", help="for each engine (default: 3600)")
+    item.add_argument(
+        "--step-rate",
+        type=float,
+        metavar="RATE",
+        help="of Cycles in volumes that vary, 0.01 for its shortest steps (default: the file's)",
+    )
     item.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="(default: build/compare/FILE)")
     item = command(
         "claims",
@@ -837,7 +845,10 @@ def main(argv: Sequence[str]) -> int:
             positive(parser, "samples", given.samples, 1 << 20)
             output = given.output.absolute() if given.output else None
             scene = given.scene.absolute()
-            compare(given.blender, CompareOptions(scene, given.width, given.samples, given.timeout, output))
+            if given.step_rate is not None and not 0.01 <= given.step_rate <= 100.0:
+                parser.error(f"--step-rate {given.step_rate:g}: must be from 0.01 to 100")
+            options = CompareOptions(scene, given.width, given.samples, given.timeout, given.step_rate, output)
+            compare(given.blender, options)
         elif given.command == "claims":
             claims(given.blender, given.seeds)
         elif given.command == "bench":

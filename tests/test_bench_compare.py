@@ -16,6 +16,7 @@ from tests.bench.compare import (
     SEEDS,
     TOLERANCE,
     Rendered,
+    Sizes,
     Values,
     blocks_of,
     compare,
@@ -106,6 +107,14 @@ def runner(program: Path) -> list[str]:
     return [str(word) for word in build.script_runner(program, "--disable-autoexec")]
 
 
+def saved(blender: Path, file: Path, *steps: str) -> Path:
+    """Blender's first scene after these statements."""
+    lines = ("import bpy", *steps, f"bpy.ops.wm.save_as_mainfile(filepath={str(file)!r})")
+    words = [str(blender), "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", "\n".join(lines)]
+    subprocess.run(words, check=True, capture_output=True, timeout=200)
+    return file
+
+
 @pytest.mark.parametrize("host", ["blender", "newest"])
 def test_a_file_is_compared(
     host: str,
@@ -118,7 +127,7 @@ def test_a_file_is_compared(
     program = request.getfixturevalue("blender" if host == "blender" else "newest_python")
     in_profile(tmp_path / "profile", library_dir, program if host == "blender" else None, monkeypatch)
     file = repository / "blend_scenes" / "furnace.blend"
-    line = compare(runner(program), file, (24, 16), tmp_path / "page", "a <command>", 200.0)
+    line = compare(runner(program), file, Sizes(24, 16), tmp_path / "page", "a <command>", 200.0)
     assert line.startswith("the same picture; ratio of the means")
     page = (tmp_path / "page" / "index.html").read_text()
     assert "furnace.blend" in page
@@ -131,17 +140,14 @@ def test_a_file_without_a_camera_is_seen_whole(
     blender: Path, library_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     in_profile(tmp_path / "profile", library_dir, blender, monkeypatch)
-    file = tmp_path / "cube.blend"
-    steps = (
-        "import bpy",
+    file = saved(
+        blender,
+        tmp_path / "cube.blend",
         "bpy.data.objects.remove(bpy.data.objects['Camera'])",
         "bpy.data.objects['Cube'].location.x = 100",
         "bpy.ops.object.light_add(type='SUN')",
-        f"bpy.ops.wm.save_as_mainfile(filepath={str(file)!r})",
     )
-    words = [str(blender), "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", "; ".join(steps)]
-    subprocess.run(words, check=True, capture_output=True, timeout=200)
-    line = compare(runner(blender), file, (48, 12), tmp_path / "page", "a command", 200.0)
+    line = compare(runner(blender), file, Sizes(48, 12), tmp_path / "page", "a command", 200.0)
     assert line.startswith("the same picture")
     page = (tmp_path / "page" / "index.html").read_text()
     assert "has no camera; both engines look through &#x27;Compare&#x27;" in page
@@ -149,3 +155,23 @@ def test_a_file_without_a_camera_is_seen_whole(
     assert np.abs(picture - picture[0, 0]).max() > 0.1  # the cube is there
     for edge in (picture[0], picture[-1], picture[:, 0], picture[:, -1]):
         np.testing.assert_allclose(edge, edge[:1].repeat(len(edge), axis=0), atol=0.02)  # and all of it
+
+
+def test_steps_through_volumes_are_told_and_set(
+    blender: Path, library_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    in_profile(tmp_path / "profile", library_dir, blender, monkeypatch)
+    # Dense where the noise is high: a step of the file's, a fifth of the cube, goes past most of it.
+    file = saved(
+        blender,
+        tmp_path / "cloud.blend",
+        "tree = bpy.data.materials['Material'].node_tree",
+        "tree.nodes.remove(tree.nodes['Principled BSDF'])",
+        "noise, volume = tree.nodes.new('ShaderNodeTexNoise'), tree.nodes.new('ShaderNodeVolumeScatter')",
+        "tree.links.new(noise.outputs['Fac'], volume.inputs['Density'])",
+        "tree.links.new(volume.outputs[0], tree.nodes['Material Output'].inputs['Volume'])",
+        "bpy.context.scene.cycles.volume_step_rate = 2.0",
+    )
+    compare(runner(blender), file, Sizes(12, 6, 0.5), tmp_path / "page", "a command", 200.0)
+    page = (tmp_path / "page" / "index.html").read_text()
+    assert "Cycles goes through the volume of &#x27;Cube&#x27; by 0.1 at a time" in page

@@ -72,6 +72,7 @@ def test_help_names_every_command() -> None:
         (("bench", "--peers", "mitsuba,arnold"), "--peers arnold: must be of mitsuba, luxcore"),
         (("compare", "nowhere.blend"), "nowhere.blend: no such file"),
         (("compare", "nowhere.blend", "--width", "0"), "--width 0: must be from 1"),
+        (("compare", "nowhere.blend", "--step-rate", "0"), "--step-rate 0: must be from 0.01 to 100"),
         (("polish",), "invalid choice: 'polish'"),
     ],
 )

@@ -138,7 +138,7 @@ def page(file: Path, rendered: dict[str, Rendered], verdict: Verdict, said: str)
         f"<td>{item.peak_bytes / 2**20:.0f}</td></tr>\n"
         for engine, item in rendered.items()
     )
-    notices = "".join(f"<li>{html.escape(line)}</li>\n" for line in glimmer.notices) or "<li>none</li>\n"
+    notices = "".join(f"<li>{html.escape(line)}</li>\n" for line in (*cycles.notices, *glimmer.notices))
     title = html.escape(file.name)
     return f"""<!DOCTYPE html>
 <html lang="en">
@@ -159,9 +159,9 @@ td, th {{ padding: 0 1em; text-align: right; }}
 <table>
 <tr><th>Engine</th><th>Mean</th><th>CPU seconds</th><th>Memory, MB</th></tr>
 {rows}</table>
-<h2>What Glimmer says</h2>
+<h2>What is known of differences</h2>
 <ul>
-{notices}</ul>
+{notices or "<li>nothing</li>"}</ul>
 <h2>How</h2>
 <p>Made by <code>{html.escape(said)}</code> with Blender {html.escape(cycles.version)}. {len(cycles.linear)} renders by
 each engine, whose CPU seconds are added up; memory is the peak of Blender's process. Cycles with many bounces, without
@@ -211,16 +211,23 @@ def render(command: Sequence[str], engine: str, job: dict[str, Any], timeout: fl
     return Rendered(linear, mean, without, told["cpu"], told["peak_bytes"], tuple(told["notices"]), told["version"])
 
 
-def compare(command: Sequence[str], file: Path, size: tuple[int, int], output: Path, said: str, timeout: float) -> str:
-    """size: width in pixels, and samples a pixel, which the renders share. Returns the verdict in a line."""
-    width, samples = size
+@dataclass(frozen=True)
+class Sizes:
+    width: int  # pixels
+    samples: int  # a pixel, which the renders share
+    step_rate: float | None = None  # of Cycles in volumes; None: the file's
+
+
+def compare(command: Sequence[str], file: Path, sizes: Sizes, output: Path, said: str, timeout: float) -> str:
+    """Returns the verdict in a line."""
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
         job = {
             "file": str(file),
-            "width": width,
-            "samples": max(samples // SEEDS, 1),
+            "width": sizes.width,
+            "samples": max(sizes.samples // SEEDS, 1),
             "seeds": SEEDS,
+            "step_rate": sizes.step_rate,
             "folder": scratch,
         }
         rendered = {engine: render(command, engine, job, timeout) for engine in ENGINES}
@@ -238,13 +245,15 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("file", type=Path)
     parser.add_argument("--width", type=int, required=True)
     parser.add_argument("--samples", type=int, required=True)
+    parser.add_argument("--step-rate", type=float, help="of Cycles in volumes (default: the file's)")
     parser.add_argument("--timeout", type=float, required=True, help="seconds for each engine")
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER")
     parser.add_argument("--said", required=True, metavar="COMMAND", help="how the user started this, for the page")
     parser.add_argument("host", nargs="+", help="the command that runs a script inside Blender, up to the script")
     given = parser.parse_args(argv)
     try:
-        line = compare(given.host, given.file, (given.width, given.samples), given.output, given.said, given.timeout)
+        sizes = Sizes(given.width, given.samples, given.step_rate)
+        line = compare(given.host, given.file, sizes, given.output, given.said, given.timeout)
     except CompareError as error:
         sys.stderr.write(f"compare: {error}\n")
         return 1

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders somebody's .blend by one engine, a few seeds of it: inside_compare.py JOB.json
 
-JOB.json holds "file", "engine" (CYCLES or GLIMMER), "width" in pixels, "samples", "seeds" (how many) and "folder".
+JOB.json holds "file", "engine" (CYCLES or GLIMMER), "width" in pixels, "samples", "seeds" (how many), "step_rate" (or
+null: the file's) and "folder".
 Leaves ENGINE.png, as the file's view transform shows the mean of the seeds, and ENGINE.npz: "linear" (seeds, height,
 width, 3), "mean", their mean through that transform (height, width, 3), and "without", for each seed the mean of all
 others through it (seeds, height, width, 3), bottom row first. And ENGINE.json: seconds, memory, notices.
@@ -26,6 +27,7 @@ import addon_utils  # noqa: E402 - a bpy module makes it known when it is import
 from exact_cycles import set_up_cycles, use_exr  # noqa: E402 - a neighbour by name
 
 BOUNCES = 64
+MOST_STEPS = 65536  # that Cycles takes
 VIEW = (math.radians(65.0), 0.0, math.radians(35.0))  # of the camera of files that have none
 BOUNDED = ("MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD", "VOLUME")
 KINDS = ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max")
@@ -85,12 +87,32 @@ def prepare(scene: Any, job: dict[str, Any]) -> None:
     render.use_compositing = render.use_sequencer = False
     if job["engine"] == "CYCLES":
         set_up_cycles(scene, samples=job["samples"], **{f"{kind}_bounces": BOUNCES for kind in KINDS})
+        if job["step_rate"] is not None:
+            scene.cycles.volume_step_rate, scene.cycles.volume_max_steps = job["step_rate"], MOST_STEPS
         return
     render.engine = "GLIMMER"
     settings = scene.glimmer
     settings.filter, settings.use_samples, settings.samples = "BOX", True, job["samples"]
     settings.use_seconds = settings.use_target_error = settings.use_adaptive = False
     settings.use_max_depth = settings.use_max_scatter = False
+
+
+def steps_through_volumes(scene: Any) -> list[str]:
+    """How long Cycles' steps are in objects filled with what nodes vary, each in a line."""
+    lines = []
+    for item in scene.objects:
+        for material in {slot.material for slot in item.material_slots if slot.material and slot.material.node_tree}:
+            outputs = [node for node in material.node_tree.nodes if node.bl_idname == "ShaderNodeOutputMaterial"]
+            shaders = [link.from_node for node in outputs for link in node.inputs["Volume"].links]
+            varies = any(socket.is_linked for node in shaders for socket in node.inputs)
+            if varies and not material.cycles.homogeneous_volume:
+                # Object::compute_volume_step_size of Cycles, before its volumes were unbiased
+                rate = scene.cycles.volume_step_rate * getattr(material.cycles, "volume_step_rate", 1.0)
+                lines.append(
+                    f"Cycles goes through the volume of '{item.name}' by {sum(item.dimensions) / 30.0 * rate:.3g} at a "
+                    "time; where that is too far, its picture changes with --step-rate"
+                )
+    return lines
 
 
 def main(job: dict[str, Any]) -> None:
@@ -117,7 +139,9 @@ def main(job: dict[str, Any]) -> None:
         bpy.data.images["Render Result"].save_render(str(path), scene=scene)
         linear.append(read(path))
         path.unlink()
-    if engine == "GLIMMER":
+    if engine == "CYCLES":
+        notices = steps_through_volumes(scene)
+    else:
         from glimmer import reports
 
         report = reports.last()
