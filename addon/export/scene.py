@@ -36,6 +36,7 @@ from ..scene.description import (
 from ..scene.problems import GlimmerError, Notice, Notices, place
 from .bodies import warn_of_bodies_of_glass
 from .dense import warn_of_dense_haze
+from .doubles import warn_of_doubled_objects
 from .geometry_instances import GeometryInstances
 from .grids import NO_READER, NoGridsError, box_of, openvdb, read_grids
 from .groups import with_groups
@@ -212,6 +213,7 @@ class _Source:
             medium=medium,
             settings=seen.settings,
         )
+        warn_of_doubled_objects(described.objects, notices)
         if scene.world is not None:
             warn_of_dense_haze(described, scene.world.name, notices)
         warn_of_bodies_of_glass(described, scene.world.name if scene.world is not None else "", notices)
