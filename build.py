@@ -575,6 +575,7 @@ class CompareOptions:
     samples: int
     timeout: int
     step_rate: float | None
+    single: bool
     output: Path | None
 
 
@@ -586,6 +587,7 @@ def compare(blender: str | None, options: CompareOptions) -> None:
     host = script_runner(executable, "--disable-autoexec")
     sizes = [f"--{name}={getattr(options, name)}" for name in ("width", "samples", "timeout")]
     sizes += [f"--step-rate={options.step_rate}"] if options.step_rate is not None else []
+    sizes += ["--single"] if options.single else []
     said = shlex.join(["python3", "build.py", "compare", options.scene.name, *sizes])
     output = options.output or BUILD / "compare" / options.scene.stem
     command: list[str | Path] = [virtual_environment("test"), "-m", "tests.bench.compare", options.scene, *sizes]
@@ -777,6 +779,11 @@ def arguments() -> argparse.ArgumentParser:
         metavar="RATE",
         help="of Cycles in volumes that vary, 0.01 for its shortest steps (default: the file's)",
     )
+    item.add_argument(
+        "--single",
+        action="store_true",
+        help="Cycles renders no objects and faces that lie on others: in Cycles they shade each other",
+    )
     item.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="(default: build/compare/FILE)")
     item = command(
         "claims",
@@ -847,8 +854,8 @@ def main(argv: Sequence[str]) -> int:
             scene = given.scene.absolute()
             if given.step_rate is not None and not 0.01 <= given.step_rate <= 100.0:
                 parser.error(f"--step-rate {given.step_rate:g}: must be from 0.01 to 100")
-            options = CompareOptions(scene, given.width, given.samples, given.timeout, given.step_rate, output)
-            compare(given.blender, options)
+            sizes = given.width, given.samples, given.timeout
+            compare(given.blender, CompareOptions(scene, *sizes, given.step_rate, given.single, output))
         elif given.command == "claims":
             claims(given.blender, given.seeds)
         elif given.command == "bench":

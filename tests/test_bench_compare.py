@@ -15,8 +15,8 @@ from tests.bench.compare import (
     BLOCK,
     SEEDS,
     TOLERANCE,
+    Options,
     Rendered,
-    Sizes,
     Values,
     blocks_of,
     compare,
@@ -127,7 +127,7 @@ def test_a_file_is_compared(
     program = request.getfixturevalue("blender" if host == "blender" else "newest_python")
     in_profile(tmp_path / "profile", library_dir, program if host == "blender" else None, monkeypatch)
     file = repository / "blend_scenes" / "furnace.blend"
-    line = compare(runner(program), file, Sizes(24, 16), tmp_path / "page", "a <command>", 200.0)
+    line = compare(runner(program), file, Options(24, 16), tmp_path / "page", "a <command>", 200.0)
     assert line.startswith("the same picture; ratio of the means")
     page = (tmp_path / "page" / "index.html").read_text()
     assert "furnace.blend" in page
@@ -147,7 +147,7 @@ def test_a_file_without_a_camera_is_seen_whole(
         "bpy.data.objects['Cube'].location.x = 100",
         "bpy.ops.object.light_add(type='SUN')",
     )
-    line = compare(runner(blender), file, Sizes(48, 12), tmp_path / "page", "a command", 200.0)
+    line = compare(runner(blender), file, Options(48, 12), tmp_path / "page", "a command", 200.0)
     assert line.startswith("the same picture")
     page = (tmp_path / "page" / "index.html").read_text()
     assert "has no camera; both engines look through &#x27;Compare&#x27;" in page
@@ -172,6 +172,24 @@ def test_steps_through_volumes_are_told_and_set(
         "tree.links.new(volume.outputs[0], tree.nodes['Material Output'].inputs['Volume'])",
         "bpy.context.scene.cycles.volume_step_rate = 2.0",
     )
-    compare(runner(blender), file, Sizes(12, 6, 0.5), tmp_path / "page", "a command", 200.0)
+    compare(runner(blender), file, Options(12, 6, 0.5), tmp_path / "page", "a command", 200.0)
     page = (tmp_path / "page" / "index.html").read_text()
     assert "Cycles goes through the volume of &#x27;Cube&#x27; by 0.1 at a time" in page
+
+
+def test_what_lies_on_others_can_be_left_out_in_cycles(
+    blender: Path, library_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    in_profile(tmp_path / "profile", library_dir, blender, monkeypatch)
+    file = saved(
+        blender,
+        tmp_path / "cubes.blend",
+        "cube = bpy.data.objects['Cube']",
+        "copy = bpy.data.objects.new('Copy', cube.data.copy())",
+        "bpy.context.scene.collection.objects.link(copy)",
+        "bpy.ops.object.light_add(type='SUN')",
+    )
+    assert not compare(runner(blender), file, Options(24, 96), tmp_path / "page", "", 200.0).startswith("the same")
+    assert "object &#x27;Copy&#x27;: lies on object &#x27;Cube&#x27;" in (tmp_path / "page" / "index.html").read_text()
+    line = compare(runner(blender), file, Options(24, 96, single=True), tmp_path / "page", "", 200.0)
+    assert line.startswith("the same")

@@ -212,22 +212,24 @@ def render(command: Sequence[str], engine: str, job: dict[str, Any], timeout: fl
 
 
 @dataclass(frozen=True)
-class Sizes:
+class Options:
     width: int  # pixels
     samples: int  # a pixel, which the renders share
     step_rate: float | None = None  # of Cycles in volumes; None: the file's
+    single: bool = False  # Cycles renders no objects and faces that lie on others
 
 
-def compare(command: Sequence[str], file: Path, sizes: Sizes, output: Path, said: str, timeout: float) -> str:
+def compare(command: Sequence[str], file: Path, options: Options, output: Path, said: str, timeout: float) -> str:
     """Returns the verdict in a line."""
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
         job = {
             "file": str(file),
-            "width": sizes.width,
-            "samples": max(sizes.samples // SEEDS, 1),
+            "width": options.width,
+            "samples": max(options.samples // SEEDS, 1),
             "seeds": SEEDS,
-            "step_rate": sizes.step_rate,
+            "step_rate": options.step_rate,
+            "single": options.single,
             "folder": scratch,
         }
         rendered = {engine: render(command, engine, job, timeout) for engine in ENGINES}
@@ -246,14 +248,15 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--width", type=int, required=True)
     parser.add_argument("--samples", type=int, required=True)
     parser.add_argument("--step-rate", type=float, help="of Cycles in volumes (default: the file's)")
+    parser.add_argument("--single", action="store_true", help="Cycles renders nothing that lies on something else")
     parser.add_argument("--timeout", type=float, required=True, help="seconds for each engine")
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER")
     parser.add_argument("--said", required=True, metavar="COMMAND", help="how the user started this, for the page")
     parser.add_argument("host", nargs="+", help="the command that runs a script inside Blender, up to the script")
     given = parser.parse_args(argv)
     try:
-        sizes = Sizes(given.width, given.samples, given.step_rate)
-        line = compare(given.host, given.file, sizes, given.output, given.said, given.timeout)
+        options = Options(given.width, given.samples, given.step_rate, given.single)
+        line = compare(given.host, given.file, options, given.output, given.said, given.timeout)
     except CompareError as error:
         sys.stderr.write(f"compare: {error}\n")
         return 1

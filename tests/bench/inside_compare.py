@@ -2,7 +2,7 @@
 """Renders somebody's .blend by one engine, a few seeds of it: inside_compare.py JOB.json
 
 JOB.json holds "file", "engine" (CYCLES or GLIMMER), "width" in pixels, "samples", "seeds" (how many), "step_rate" (or
-null: the file's) and "folder".
+null: the file's), "single" (whether Cycles renders no faces that lie on others) and "folder".
 Leaves ENGINE.png, as the file's view transform shows the mean of the seeds, and ENGINE.npz: "linear" (seeds, height,
 width, 3), "mean", their mean through that transform (height, width, 3), and "without", for each seed the mean of all
 others through it (seeds, height, width, 3), bottom row first. And ENGINE.json: seconds, memory, notices.
@@ -21,10 +21,12 @@ import numpy as np
 from mathutils import Euler, Vector
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "blender"))
+sys.path[:0] = [str(ROOT / "tests" / "blender"), str(ROOT)]
 
 import addon_utils  # noqa: E402 - a bpy module makes it known when it is imported
 from exact_cycles import set_up_cycles, use_exr  # noqa: E402 - a neighbour by name
+
+from tests.bench.single import make_single  # noqa: E402
 
 BOUNCES = 64
 MOST_STEPS = 65536  # that Cycles takes
@@ -89,6 +91,8 @@ def prepare(scene: Any, job: dict[str, Any]) -> None:
         set_up_cycles(scene, samples=job["samples"], **{f"{kind}_bounces": BOUNCES for kind in KINDS})
         if job["step_rate"] is not None:
             scene.cycles.volume_step_rate, scene.cycles.volume_max_steps = job["step_rate"], MOST_STEPS
+        if job["single"]:
+            make_single(scene)
         return
     render.engine = "GLIMMER"
     settings = scene.glimmer
