@@ -11,8 +11,10 @@ from typing import Any, Protocol
 import bpy
 
 from . import reports
+from .cluster.render import ClusterRender
+from .cluster.settings import Cluster, cluster_of, note_differences
 from .export.camera import export_camera
-from .export.film import export_film, export_settings, full_shape, note_missing_passes
+from .export.film import export_film, export_settings, full_shape, layer_samples, note_missing_passes
 from .export.instance import BulkReader
 from .export.scene import Exported, View, export_scene
 from .export.stereo import active_views, eye_of
@@ -20,7 +22,8 @@ from .film import passes
 from .film.coarse import first_look
 from .film.display import Display
 from .hexfield.export import export_instances
-from .native.render import open_render
+from .native.render import NativeRender, open_render
+from .scene.description import SceneDescription
 from .scene.problems import Notices
 from .scene.writer import write_scene
 
@@ -36,6 +39,7 @@ class RenderJob:
     views: tuple[tuple[str, Exported], ...]  # by name; of no name where there is but one
     passes: tuple[passes.RenderPass, ...]
     layer: str
+    cluster: Cluster | None = None  # None: this machine renders
 
     def run(self, engine: bpy.types.RenderEngine) -> None:
         for item in self.passes[1:]:
@@ -51,8 +55,7 @@ class RenderJob:
         coarse = None
         if is_final and not bpy.app.background:
             coarse = first_look(exported.scene, engine.test_break)
-        render, _ = open_render(exported.scene)
-        with render:
+        with self._open(exported.scene) as render:
 
             def watch(report: dict[str, Any]) -> None:
                 reports.update(reports.collect(report, exported), self.layer)
@@ -66,6 +69,11 @@ class RenderJob:
         if is_final:
             reports.stamp(engine, metadata)
             reports.publish(engine, report, self.layer)
+
+    def _open(self, scene: SceneDescription) -> NativeRender | ClusterRender:
+        if self.cluster is not None:
+            return ClusterRender(scene, self.cluster, Path(bpy.app.tempdir))
+        return open_render(scene)[0]
 
 
 @dataclass(frozen=True)
@@ -92,17 +100,18 @@ def prepare(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> J
     # A preview's depsgraph is not the scene's.
     set_frame = None if engine.is_preview else engine.frame_set
     path = export_request.pop("path", None) if not engine.is_preview else None
+    cluster = None if engine.is_preview or path is not None else cluster_of(depsgraph.scene_eval)
     names = ("",) if engine.is_preview else active_views(depsgraph.scene_eval.render)
     views = []
     for name in names:
         if name:
             engine.active_view_set(name)
-        view = _camera_view(engine, depsgraph, enabled, name)
+        view = _camera_view(engine, depsgraph, enabled, name, cluster is not None)
         exported = export_scene(depsgraph, view, bpy.app.version, BULK_READERS, set_frame=set_frame)
         if path is not None:
             return ExportJob(exported, path)
         views.append((name, exported))
-    return RenderJob(tuple(views), enabled, depsgraph.view_layer_eval.name)
+    return RenderJob(tuple(views), enabled, depsgraph.view_layer_eval.name, cluster)
 
 
 def _camera_view(
@@ -110,6 +119,7 @@ def _camera_view(
     depsgraph: bpy.types.Depsgraph,
     enabled: tuple[passes.RenderPass, ...],
     view_name: str,
+    on_cluster: bool,
 ) -> Callable[[bpy.types.Scene, Notices], View]:
     """view_name: of a stereoscopic render, "" else."""
 
@@ -117,6 +127,9 @@ def _camera_view(
         film = export_film(scene, notices)
         if not engine.is_preview:
             note_missing_passes(depsgraph.view_layer_eval, notices)
+        if on_cluster:
+            samples = layer_samples(scene, depsgraph.view_layer_eval)
+            note_differences(scene.glimmer, samples, enabled, notices)
         camera = engine.camera_override or scene.camera
         evaluated = None if camera is None else camera.evaluated_get(depsgraph)
         is_eye = view_name and evaluated is not None and evaluated.type == "CAMERA"

@@ -26,6 +26,7 @@ from . import (
     ui,
     worlds,
 )
+from .cluster import render as cluster_render
 from .native import library, render
 from .scene.problems import GlimmerError
 from .viewport import redraw
@@ -98,6 +99,7 @@ def _folder(package: str | None) -> str:
 
 def _close_all() -> None:
     view_session.close_all()
+    cluster_render.close_all()
     render.close_all()
 
 

@@ -104,6 +104,7 @@ def test_the_zip_holds_the_add_on_its_library_and_its_licence(zip_path: Path) ->
         assert archive.testzip() is None
         names = archive.namelist()
         library = archive.read("glimmer/lib/libglimmer.so")
+        sources = {name: archive.read(name) for name in names if name.endswith(".py")}
     assert {
         "glimmer/__init__.py",
         "glimmer/blender_manifest.toml",
@@ -113,6 +114,9 @@ def test_the_zip_holds_the_add_on_its_library_and_its_licence(zip_path: Path) ->
     assert all(name.startswith("glimmer/") for name in names)
     assert not [name for name in names if "__pycache__" in name or name.endswith((".pyc", ".blend"))]
     assert library == build.LIBRARY.read_bytes()
+    foreign = re.compile(rb"^\s*(?:import|from) (?:dask|distributed|OpenImageIO|engine)\b", re.MULTILINE)
+    assert "glimmer/cluster/render.py" in sources
+    assert [name for name, text in sources.items() if foreign.search(text)] == [], "Blender has none of them"
 
 
 def test_the_same_files_give_the_same_zip(zip_path: Path) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..native.render import NativeRender, Progress, Tile
+from ..native.render import Progress, Render, Tile
 from ..scene.description import SceneDescription
 from ..scene.problems import GlimmerError
 from . import cryptomatte, denoise
@@ -46,7 +46,10 @@ def status(progress: Progress, samples: int) -> str:
             parts.append(FIREFLIES)
         if progress.seconds_to_target is not None:
             parts.append(f"Noise limit in {clock(progress.seconds_to_target)}")
-    parts.append(f"Mem {progress.peak_bytes / 2**20:.0f} MB")
+    if progress.workers is None:
+        parts.append(f"Mem {progress.peak_bytes / 2**20:.0f} MB")
+    else:
+        parts.append(f"{progress.workers} worker{'' if progress.workers == 1 else 's'}")
     return " | ".join(parts)
 
 
@@ -66,7 +69,7 @@ class Display:
     def __init__(
         self,
         engine: bpy.types.RenderEngine,
-        render: NativeRender,
+        render: Render,
         scene: SceneDescription,
         passes: tuple[RenderPass, ...],
         layer: str,

@@ -8,7 +8,7 @@ from ctypes import byref, c_char_p, c_int, c_void_p
 from dataclasses import dataclass
 from math import nan
 from types import TracebackType
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,7 @@ class Progress:
     peak_bytes: int = 0
     invalid_samples: int = 0
     version: int = 0  # grows whenever a pixel changed
+    workers: int | None = None  # of a cluster; None: this machine renders
 
     @property
     def ended(self) -> bool:
@@ -49,6 +50,22 @@ class Tile:
     y: int
     width: int
     height: int
+
+
+class Render(Protocol):
+    """What is asked of a render, whoever renders."""
+
+    @property
+    def material_numbers(self) -> list[int]: ...
+    @property
+    def has_alpha(self) -> bool: ...
+    def start(self) -> None: ...
+    def cancel(self) -> None: ...
+    def wait(self, seconds: float) -> None: ...
+    def poll(self) -> Progress: ...
+    def changed_tiles(self) -> list[Tile]: ...
+    def read(self, name: str, tile: Tile) -> NDArray[np.float32]: ...
+    def report(self) -> dict[str, Any]: ...
 
 
 class NativeRender:

@@ -226,6 +226,20 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         " PICTURE.error.csv and PICTURE.error.png",
         default=False,
     )
+    use_cluster: bpy.props.BoolProperty(
+        name="Render on Cluster",
+        description="Final renders are done by the cluster that the add-on's preferences name, in tasks of some samples"
+        " of the whole picture each",
+        default=False,
+    )
+    cluster_task_samples: bpy.props.IntProperty(
+        name="Samples per Task",
+        description="Each task loads the scene anew and should take much longer than that; there should be several for"
+        " each worker, and the noise is known from eight on",
+        default=8,
+        min=2,
+        soft_max=1024,
+    )
     tile_size: bpy.props.IntProperty(
         name="Tile Size",
         description="Side of the tiles in which the picture appears, in pixels. Changes no pixel",

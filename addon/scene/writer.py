@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import asdict
+from itertools import accumulate
 from math import isinf
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,18 @@ def write_scene(scene: d.SceneDescription, path: Path) -> None:
         path.write_text(json.dumps(document, indent=1) + "\n")
     except OSError as error:
         raise GlimmerError(f"The scene file {path} cannot be written: {error.strerror or error}") from error
+
+
+def material_numbers(scene: d.SceneDescription) -> list[int]:
+    """The engine's number of each material where the scene comes from its file: in their order, and the parts of a mix
+    before it.
+    """
+    return [number - 1 for number in accumulate(_count(item.material) for item in scene.materials)]
+
+
+def _count(material: d.Material) -> int:
+    """With its parts."""
+    return 1 + sum(_count(part) for part in d.parameters(material).values() if isinstance(part, d.Material))
 
 
 def _numbers(array: Any) -> Any:

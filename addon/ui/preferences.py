@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# mypy: disable-error-code="valid-type"
 """What the add-on's entry in Blender's preferences shows: which engine is at work, or why none is."""
 
 import bpy
@@ -14,6 +15,18 @@ ADDON = __package__.rpartition(".")[0]
 class GlimmerPreferences(bpy.types.AddonPreferences):
     bl_idname = ADDON
 
+    scheduler: bpy.props.StringProperty(
+        name="Scheduler",
+        description="Address of the cluster's Dask scheduler, as tcp://10.0.0.1:8786. Without one, Render on Cluster"
+        " starts two workers on this machine",
+    )
+    farm_command: bpy.props.StringProperty(
+        name="Command",
+        description="The command build/bin/glimmer of a checkout on this machine, built as on the workers. It hands"
+        " frames to the cluster. Without one, the checkout's that this add-on is of, or the one on the path",
+        subtype="FILE_PATH",
+    )
+
     def draw(self, context: bpy.types.Context) -> None:
         try:
             engine = load()
@@ -23,6 +36,10 @@ class GlimmerPreferences(bpy.types.AddonPreferences):
         draw_wrapped(self.layout, context, f"Glimmer {engine.version()}: {engine.build_info()}", "CHECKMARK")
         glibc = ".".join(map(str, machine.GLIBC))
         draw_wrapped(self.layout, context, f"For Linux with glibc {glibc} or later, on x86-64 with AVX2", "BLANK1")
+        column = self.layout.column(heading="Render on Cluster")
+        column.use_property_split = True
+        column.prop(self, "scheduler")
+        column.prop(self, "farm_command")
 
 
 class GlimmerNotice(bpy.types.AddonPreferences):

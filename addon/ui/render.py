@@ -3,6 +3,8 @@
 
 import bpy
 
+from ..cluster.settings import cluster_of
+from ..scene.problems import GlimmerError
 from .panel import GlimmerPanel, draw_wrapped, limit_row
 
 
@@ -59,6 +61,31 @@ class GLIMMER_PT_performance(GlimmerPanel, bpy.types.Panel):
         layout.prop(context.scene.glimmer, "tile_size")
 
 
-_CLASSES = (GLIMMER_PT_light_paths, GLIMMER_PT_film, GLIMMER_PT_performance)
+class GLIMMER_PT_cluster(GlimmerPanel, bpy.types.Panel):
+    bl_label = "Render on Cluster"
+    bl_parent_id = "GLIMMER_PT_performance"
+    bl_context = "render"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.scene.glimmer, "use_cluster", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, context.scene.glimmer
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.active = settings.use_cluster
+        layout.prop(settings, "cluster_task_samples")
+        try:
+            cluster = cluster_of(context.scene)
+        except GlimmerError as error:
+            draw_wrapped(layout, context, str(error), "ERROR")
+            return
+        if cluster is not None:
+            where = cluster.scheduler or "Two workers on this machine: the preferences name no scheduler"
+            draw_wrapped(layout, context, where, "NETWORK_DRIVE")
+
+
+_CLASSES = (GLIMMER_PT_light_paths, GLIMMER_PT_film, GLIMMER_PT_performance, GLIMMER_PT_cluster)
 
 register, unregister = bpy.utils.register_classes_factory(_CLASSES)

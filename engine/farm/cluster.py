@@ -35,6 +35,8 @@ def _settings() -> dict[str, Any]:
         "distributed.worker.memory.pause": False,
         "distributed.worker.memory.terminate": False,
         "distributed.scheduler.worker-ttl": "60s",
+        # A cluster of this machine lets go of a worker that is not back so soon, even while another takes its place.
+        "distributed.deploy.lost-worker-timeout": "1h",
         "distributed.comm.timeouts.connect": f"{CONNECT_SECONDS}s",
     }
 

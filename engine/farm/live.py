@@ -12,7 +12,7 @@ The program ends the render by closing our standard input, and so does its own e
 from __future__ import annotations
 
 import json
-import sys
+import os
 import threading
 import time
 from pathlib import Path
@@ -53,7 +53,7 @@ class Live:
         threading.Thread(target=self._wait_for_the_end, daemon=True).start()
 
     def _wait_for_the_end(self) -> None:
-        while sys.stdin.buffer.read(1):
+        while os.read(0, 4096):  # sys.stdin has a lock, and Python does not end while a thread holds it
             pass
         self._ended.set()
 
@@ -72,7 +72,7 @@ class Live:
 
     def finish(self, outcome: Outcome) -> None:
         self._write(outcome.picture)
-        self._tell(0, outcome.report)
+        self._tell(len(outcome.report["workers"]), outcome.report)
 
     def _write(self, picture: Picture) -> None:
         write_picture(picture, self._folder / "picture")

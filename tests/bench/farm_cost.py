@@ -7,7 +7,9 @@ Merging is measured without a cluster, in CPU time: it does not know where range
 workers are cannot be measured on one machine.
 """
 
+import json
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -25,6 +27,7 @@ from engine.farm.ranges import Expected, Order, Range
 
 SIZES = ((480, 270), (960, 540), (1920, 1080))
 RANGES = 8
+MOVED_RANGES = 16
 
 
 def say(text: str) -> None:
@@ -57,14 +60,25 @@ def merging() -> None:
 
 def moving() -> None:
     os.environ["PYTHONPATH"] = str(ROOT)
-    say("| workers | scene, MB | ranges, MB |\n|---|---|---|")
-    scene = ROOT / "engine" / "examples" / "glimmervoid_small.json"
-    options = FarmOptions(scene, samples=2 * RANGES, range_samples=2, threads=1, wait_seconds=600)
-    with tempfile.TemporaryDirectory() as folder:
+    """Ranges without light, since what is rendered changes nothing of it."""
+    say("| workers | scene, MB | ranges, MB | checking and adding, s | the farm's process, s |\n|---|---|---|---|---|")
+    example = ROOT / "engine" / "examples"
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        document = json.loads((example / "glimmervoid_small.json").read_text())
+        (folder / "scene.json").write_text(json.dumps({**document, "render": {"max_depth": 0}}))
+        shutil.copy(example / "plates.npy", folder)
+        options = FarmOptions(
+            folder / "scene.json", samples=2 * MOVED_RANGES, range_samples=2, threads=1, wait_seconds=600
+        )
         for workers in (1, 2, 4, 8):
-            with local_cluster(workers, Path(folder)) as client:
-                moved = Farm(client, options, say).run().report["bytes"]
-            say(f"| {workers} | {moved['scene'] / 1e6:.2f} | {moved['results'] / 1e6:.1f} |")
+            begin = time.process_time()
+            with local_cluster(workers, folder) as client:
+                report = Farm(client, options, say).run().report
+            whole = time.process_time() - begin
+            moved, seconds = report["bytes"], report["seconds"]
+            sizes = f"{moved['scene'] / 1e6:.2f} | {moved['results'] / 1e6:.1f}"
+            say(f"| {workers} | {sizes} | {seconds['check'] + seconds['merge']:.2f} | {whole:.1f} |")
 
 
 if __name__ == "__main__":
