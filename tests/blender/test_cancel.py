@@ -5,11 +5,15 @@ import json
 import signal
 import subprocess
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import OpenImageIO
+import pytest
 from hosts import Host
+
+from tests.farm.machines import PYTHON, cluster
 
 SCRIPT = Path(__file__).with_name("window_script.py")
 # The render would take days. With software OpenGL on a loaded machine a redraw, and with it a look at the keyboard,
@@ -25,9 +29,23 @@ def wait_for(path: Path, process: subprocess.Popen[str], seconds: float) -> None
         time.sleep(0.05)
 
 
-def test_escape_stops_at_once_and_keeps_what_is_there(blender_host: Host, display: str, tmp_path: Path) -> None:
-    env = {**blender_host.env, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"}
-    command = [str(blender_host.program), "--factory-startup", "--python", str(SCRIPT), "--", str(tmp_path)]
+@pytest.fixture(params=["here", pytest.param("cluster", marks=pytest.mark.full)])
+def scheduler(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[list[str]]:
+    """Of a cluster that renders; none where Blender does."""
+    if request.param == "here":
+        yield []
+    else:
+        with cluster(2, tmp_path) as address:
+            yield [address]
+
+
+def test_escape_stops_at_once_and_keeps_what_is_there(
+    blender_host: Host, display: str, tmp_path: Path, scheduler: list[str]
+) -> None:
+    env = {**blender_host.env, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", **PYTHON}
+    if scheduler:
+        env["GLIMMER_SCHEDULER"] = scheduler[0]
+    command = [str(blender_host.program), "--factory-startup", "--python", str(SCRIPT), "--", str(tmp_path), *scheduler]
     log = (tmp_path / "log").open("w")
     process = subprocess.Popen(command, env=env, text=True, stdout=log, stderr=log)
     try:

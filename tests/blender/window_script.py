@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders in a window until somebody presses Escape: window_script.py FOLDER.
+"""Renders in a window until somebody presses Escape: window_script.py FOLDER [SCHEDULER].
 
 Writes `ready` when the picture has begun to appear, and at the end facts.json and kept.exr, the picture as it was kept.
 """
@@ -16,9 +16,11 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import inside
 
-OUT = Path(inside.words()[0])
+OUT, SCHEDULER = Path(inside.words()[0]), inside.words()[1:]
 GIVE_UP_SECONDS = 60.0
-inside.enable()
+glimmer = inside.enable()
+from glimmer import reports  # noqa: E402 - the add-on's name inside Blender
+
 facts: dict[str, Any] = {"ticks": [], "started": None, "ended": None}
 
 
@@ -44,13 +46,14 @@ def watch() -> float | None:
         finish()
         return None
     facts["ticks"].append(now)
-    if len(facts["ticks"]) > 2 and now > facts["started"] + 3.0:
+    if len(facts["ticks"]) > 2 and now > facts["started"] + 3.0 and reports.last().get("spp", 0) > 0:
         (OUT / "ready").touch()
     return 0.05
 
 
 def begin() -> None:
     inside.endless_scene(640, 400)
+    bpy.context.scene.glimmer.use_cluster = bool(SCHEDULER)
     window = bpy.context.window_manager.windows[0]
     with bpy.context.temp_override(window=window, screen=window.screen, area=window.screen.areas[0]):
         bpy.ops.render.render("INVOKE_DEFAULT")

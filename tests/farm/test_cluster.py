@@ -23,7 +23,7 @@ from engine.farm.farm import Farm, FarmOptions, Progress
 from engine.farm.merge import Sums
 from engine.farm.problems import FarmError
 from engine.farm.ranges import Order, Range
-from tests.farm.machines import free_port, is_open, processes, started, wait_for
+from tests.farm.machines import Wire, free_port, is_open, processes, started, wait_for
 from tests.render.build import Builder, camera, floor, grey
 
 AOVS = ("depth", "albedo", "object_index")
@@ -174,6 +174,33 @@ def test_killed_stopped_added_and_full_workers_change_no_bit(
     sums, _ = on_one_machine(options, 24, tmp_path)
     assert outcome.picture.pixels.tobytes() == sums.picture(outcome.picture.facts).pixels.tobytes()
     assert not np.isnan(outcome.picture.pixels).any()
+
+
+def test_a_worker_whose_network_breaks_loses_its_range_alone(scene: Path, tmp_path: Path) -> None:
+    port, lines = free_port(), list[str]()
+    options = options_of(scene, samples=192, range_samples=8, silent_seconds=4.0)
+    with processes() as machines:
+        machines.append(started("--start-scheduler", f"127.0.0.1:{port}"))
+        wait_for(lambda: is_open(port))
+        wire = Wire(port)
+        for at in (port, wire.port):
+            words = ("--start-worker", f"tcp://127.0.0.1:{at}", "--threads", "1", "--folder", str(tmp_path))
+            machines.append(started(*words))
+        with connect(f"tcp://127.0.0.1:{port}") as client:
+            wait_for(lambda: len(client.seen_workers()) == 2)
+
+            def watch(progress: Progress) -> None:
+                if progress.ranges >= 4:
+                    wire.breaks()
+                if any("no sign of life" in line for line in lines) and progress.ranges >= 16:
+                    wire.mends()
+
+            outcome = Farm(client, options, lines.append).run(watch)
+        wire.mends()
+    assert any(line.endswith("gives no sign of life") for line in lines), lines
+    sums, _ = on_one_machine(options, 24, tmp_path)
+    assert outcome.report["ranges"] == 24
+    assert outcome.picture.pixels.tobytes() == sums.picture(outcome.picture.facts).pixels.tobytes()
 
 
 @pytest.mark.full
