@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..cluster.settings import note_differences
+from ..film.passes import enabled
 from ..scene.problems import GlimmerError, Notice, Notices
 from ..scene.program import Texture
 from .camera import export_camera
-from .film import export_film, full_shape, note_missing_passes
+from .film import export_film, full_shape, layer_samples, note_missing_passes
 from .motion import read_shutter
 from .scene import take_notices
 from .translate.image import Images
@@ -55,6 +57,9 @@ def find_differences(depsgraph: bpy.types.Depsgraph, version: tuple[int, ...]) -
     try:
         export_film(scene, notices)
         note_missing_passes(depsgraph.view_layer_eval, notices)
+        if scene.glimmer.use_cluster:
+            layer = depsgraph.view_layer_eval
+            note_differences(scene.glimmer, layer_samples(scene, layer), enabled(layer), notices)
         camera = scene.camera.evaluated_get(depsgraph) if scene.camera is not None else None
         export_camera(camera, full_shape(scene.render), notices)
         if depsgraph.view_layer_eval.use_motion_blur:

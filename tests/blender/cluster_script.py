@@ -14,6 +14,7 @@ import inside
 OUT, SCHEDULER, COMMAND = inside.words()
 bpy.ops.preferences.addon_enable(module="glimmer")
 from glimmer import reports  # noqa: E402 - the add-on's name inside Blender
+from glimmer.export.differences import find_differences  # noqa: E402
 
 preferences = bpy.context.preferences.addons["glimmer"].preferences
 preferences.scheduler, preferences.farm_command = SCHEDULER, COMMAND
@@ -43,7 +44,8 @@ bpy.ops.glimmer.export_scene(filepath=f"{OUT}/scene.json")
 inside.render(Path(OUT, "local.exr"))
 scene.glimmer.use_cluster = True
 inside.render(Path(OUT, "cluster.exr"))
-Path(OUT, "report.json").write_text(json.dumps(reports.last()))
+before = [str(notice) for notice in find_differences(bpy.context.evaluated_depsgraph_get(), bpy.app.version)]
+Path(OUT, "report.json").write_text(json.dumps({**reports.last(), "before": before}))
 inside.use_format("PNG")
 scene.glimmer.samples = 1_000_000
 bpy.ops.wm.save_as_mainfile(filepath=f"{OUT}/endless.blend")

@@ -85,6 +85,7 @@ def test_noise_progress_and_differences_are_told(host: Host, rendered: Rendered)
     assert report["spp"] == 16 and report["error"]["low"] < report["error"]["high"]
     assert report["seconds"]["cpu"] > 0 and len(report["workers"]) == 2
     assert report["export"]["notices"] == ["Render on Cluster: Cryptomatte is that of the first task's 2 samples"]
+    assert report["before"] == report["export"]["notices"]
     if host.is_module:  # which prints no progress
         return
     last = [line for line in rendered.output.splitlines() if "Sample 16/16" in line and "worker" in line][-1]

@@ -30,7 +30,8 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.fixture
-def endless() -> d.SceneDescription:
+def endless(library_dir: Path, monkeypatch: pytest.MonkeyPatch) -> d.SceneDescription:
+    monkeypatch.setenv("GLIMMER_LIBRARY", str(library_dir / "libglimmer.so"))
     builder = Builder(camera((0, -6, 1), (0, 0, 0), 60), 24, 16)
     builder.mesh(floor(z=-1, half=4), d.Lambert(grey(0.5)))
     builder.sphere((0, 0, 4), 1.0, d.Light(grey(5)))
