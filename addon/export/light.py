@@ -3,16 +3,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import degrees, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.description import AreaLight, Floats, Lamp, LampFlags, PointLight, Rays, Rgb, SpotLight, SunLight
+from ..scene.description import (
+    BLACK,
+    AreaLight,
+    Floats,
+    Lamp,
+    LampFlags,
+    LampProfile,
+    PointLight,
+    Rays,
+    Rgb,
+    SpotLight,
+    SunLight,
+)
 from ..scene.problems import Notices, place
+from ..scene.program import Op, TooLargeError, compile_program
 from .camera import rigid
 from .color import scaled
 from .nodes import Nodes
+from .translate.emitted import emitted
+from .translate.image import Images
 
 if TYPE_CHECKING:
     import bpy
@@ -48,20 +64,27 @@ def has_round_lamps(version: Version) -> bool:
     return version >= (4, 0)
 
 
-def export_lamp(item: bpy.types.Object, matrix: Floats, rays: Rays, version: Version, notices: Notices) -> Lamp | None:
+def export_lamp(
+    item: bpy.types.Object,
+    matrix: Floats,
+    rays: Rays,
+    version: Version,
+    notices: Notices,
+    images: Images | None = None,
+) -> Lamp | None:
     """The lamp of an evaluated object at a matrix (4, 4); None where it gives no light. rays: that meet it."""
     data = item.data
     if data.type == "AREA" and getattr(getattr(data, "cycles", None), "is_portal", False):
         return None  # it only tells Cycles where to look for the sky
     where = place(item.name)
-    color = _color(data, where, notices)
+    color, profile = _color(data, matrix, where, notices, images)
     power = data.energy * 2.0 ** getattr(data, "exposure", 0.0)
     _note_differences(item, matrix, where, version, notices)
     if power <= 0.0 or not any(color):
         if power < 0.0:
             notices.add(where, "a lamp of negative power gives no light")
         return None
-    flags = _flags(data, rays, version)
+    flags = replace(_flags(data, rays, version), profile=profile)
     is_old = not has_round_lamps(version)
     direction = tuple(float(v) for v in -matrix[:3, 2])
     position = (float(matrix[0, 3]), float(matrix[1, 3]), float(matrix[2, 3]))
@@ -116,14 +139,26 @@ def _area(
     return AreaLight(name, rigid(matrix), size, scaled(color, radiance), ellipse, spread, flags)
 
 
-def _color(data: bpy.types.Light, where: str, notices: Notices) -> Rgb:
+def _color(
+    data: bpy.types.Light, matrix: Floats, where: str, notices: Notices, images: Images | None
+) -> tuple[Rgb, LampProfile | None]:
+    """The colour, and what it is multiplied by where its nodes give more than one."""
     color: Rgb = (data.color[0], data.color[1], data.color[2])
     if getattr(data, "use_temperature", False):
         color = tuple(a * b for a, b in zip(color, data.temperature_color, strict=True))
-    if data.use_nodes and data.node_tree is not None:
-        radiance = Nodes(data, where, notices).lamp_emission()
-        color = (color[0] * radiance[0], color[1] * radiance[1], color[2] * radiance[2])
-    return color
+    if not data.use_nodes or data.node_tree is None:
+        return color, None
+    nodes = Nodes(data, where, notices, images)
+    nodes.lamp = data.type
+    surface = nodes.surface_of_output()
+    factor = BLACK if surface is None else emitted(nodes, surface)
+    if not isinstance(factor, Op):
+        return (color[0] * factor[0], color[1] * factor[1], color[2] * factor[2]), None
+    try:
+        return color, LampProfile(compile_program([factor]), matrix)
+    except TooLargeError as error:
+        notices.add(where, f"its nodes cannot be rendered, since {error}; they are left out")
+        return color, None
 
 
 def _note_differences(item: bpy.types.Object, matrix: Floats, where: str, version: Version, notices: Notices) -> None:

@@ -15,7 +15,6 @@ from ..native.library import load
 from ..scene.description import Rgb, SkySun
 from ..scene.problems import Notices
 from ..scene.program import Op
-from .color import scaled
 from .fold import FOLDS, MEANS, Folder
 from .sockets import Constant, Input, NotConstantError, Source, as_color, as_number, default_value, find_input
 from .translate import arithmetic, image, pattern, sky, surface, vector
@@ -91,6 +90,7 @@ class Nodes:
         self.version = blender_version()
         self.frame = self.images.frame  # of the scene
         self.is_sky = False  # the tree is a world's
+        self.lamp = ""  # the tree is a lamp's: of this type
         self.in_volume = False  # it is asked about points within a body
         self.grids: dict[str, Grid] = {}  # of that body, a volume object
         self.sky_sun: SkySun | None = None  # of a Sky Texture that was met
@@ -329,18 +329,6 @@ class Nodes:
         socket = find_input(node, *names)
         return socket is not None and socket.is_linked
 
-    def lamp_emission(self) -> Rgb:
-        """What the nodes of a lamp multiply its light by."""
-        surface = self.surface_of_output()
-        source = None if surface is None else self.source(surface)
-        if source is None or source.node is None:
-            return (0.0, 0.0, 0.0)
-        if source.node.bl_idname != "ShaderNodeEmission":
-            self.notice(source.node, "cannot be rendered in a lamp; the lamp's own colour and power are used")
-            return (1.0, 1.0, 1.0)
-        color = self.color(source.node, source.groups, ("Color",))
-        return scaled(color, self.number(source.node, source.groups, "Strength"))
-
 
 _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeMath": arithmetic.math_node,
@@ -393,6 +381,7 @@ _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeObjectInfo": surface.object_info,
     "ShaderNodeCameraData": surface.camera_data,
     "ShaderNodeLightPath": surface.light_path,
+    "ShaderNodeLightFalloff": surface.light_falloff,
     "ShaderNodeFresnel": surface.fresnel,
     "ShaderNodeLayerWeight": surface.layer_weight,
     "ShaderNodeBump": surface.bump,

@@ -329,7 +329,8 @@ class _Collector:
             if self._motion(placed) is not None:
                 self._notices.add(place(placed.name), f"a lamp that moves while the shutter is open, {HELD_STILL}")
             for matrix in placed.all_matrices():
-                lamp = export_lamp(placed.item, matrix, placed.visibility.rays, self._version, self._notices)
+                rays = placed.visibility.rays
+                lamp = export_lamp(placed.item, matrix, rays, self._version, self._notices, self.images)
                 if lamp is not None:
                     self.lights.append(lamp)
         elif kind in UNSUPPORTED:

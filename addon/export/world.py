@@ -16,10 +16,8 @@ from .color import add_colors, lerp, scaled
 from .light import UNLIMITED_BOUNCES
 from .nodes import Nodes
 from .sockets import Input, NotConstantError, Source
+from .translate.emitted import emitted
 from .translate.image import MISSING, Images
-from .translate.values import Triple, added, clamped
-from .translate.values import lerp as blended
-from .translate.values import scaled as scaled_by
 from .visibility import world_rays
 from .volume import world_medium
 
@@ -92,7 +90,7 @@ def _sky_program(nodes: Nodes, surface: Input) -> Environment | None:
     """A sky that varies by more than one image; None for what the engine has without a program."""
     if nodes.constants_only or not _varies_beyond_an_image(nodes, surface):
         return None
-    radiance = _radiance(nodes, surface)
+    radiance = emitted(nodes, surface)
     if not isinstance(radiance, Op):
         return None
     try:
@@ -154,25 +152,6 @@ def _is_constant(nodes: Nodes, item: Input) -> bool:
     except NotConstantError:
         return False
     return True
-
-
-def _radiance(nodes: Nodes, item: Input) -> Triple:
-    source = nodes.source(item)
-    if source is None or source.node is None:
-        return BLACK
-    node = source.node
-    if node.bl_idname in ("ShaderNodeBackground", "ShaderNodeEmission"):
-        strength = nodes.varying_number(node, source.groups, "Strength")
-        return scaled_by(nodes.varying_color(node, source.groups, "Color"), strength)
-    if node.bl_idname == "ShaderNodeMixShader":
-        factor = clamped(nodes.varying_number(node, source.groups, node.inputs[0].name))
-        first, second = (_radiance(nodes, Input(node.inputs[i], source.groups)) for i in (1, 2))
-        return blended(first, second, factor)
-    if node.bl_idname == "ShaderNodeAddShader":
-        first, second = (_radiance(nodes, Input(node.inputs[i], source.groups)) for i in (0, 1))
-        return added(first, second)
-    nodes.notice(node, "is not supported in a world; it is black")
-    return BLACK
 
 
 @dataclass

@@ -40,6 +40,7 @@ SIGNATURES: dict[str, tuple[object, list[object]]] = {
     "glimmer_scene_add_program": (_RESULT, [c_void_p, POINTER(structs.ProgramDesc), POINTER(c_uint32)]),
     "glimmer_scene_bind": (_RESULT, [c_void_p, c_uint32, c_char_p, c_uint32, c_uint32]),
     "glimmer_scene_bind_environment": (_RESULT, [c_void_p, c_uint32, c_uint32]),
+    "glimmer_scene_bind_light": (_RESULT, [c_void_p, c_uint32, c_uint32, c_uint32, POINTER(c_double)]),
     "glimmer_scene_bind_sun": (_RESULT, [c_void_p, POINTER(c_double), c_double]),
     "glimmer_scene_create": (_RESULT, [POINTER(c_void_p)]),
     "glimmer_scene_destroy": (None, [c_void_p]),

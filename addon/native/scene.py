@@ -130,10 +130,10 @@ class NativeScene:
                 self._add_object(item, materials, meshes, programs)
             for spheres in scene.spheres:
                 self._add_spheres(spheres, materials, programs)
+            for number, lamp in enumerate(scene.lights):
+                self._add_lamp(number, lamp, programs)
         finally:
             programs.close()
-        for lamp in scene.lights:
-            self._add_lamp(lamp)
         self._set_environment(scene.environment)
         if scene.medium is not None:
             medium = scene.medium
@@ -246,7 +246,7 @@ class NativeScene:
         desc.binding_count, desc.bindings = len(bindings), ctypes.addressof(bindings)
         return desc, bindings
 
-    def _add_lamp(self, lamp: d.Lamp) -> None:
+    def _add_lamp(self, number: int, lamp: d.Lamp, programs: ProgramAdder) -> None:
         desc = self.library.init(structs.LightDesc)
         desc.name = lamp.name.encode()
         _LAMP_FILLERS[type(lamp)](desc, lamp)
@@ -255,6 +255,10 @@ class NativeScene:
             desc.max_bounces = lamp.flags.max_bounces
         desc.light_group = lamp.flags.light_group
         self.library.call("glimmer_scene_add_light", self.handle, byref(desc))
+        if lamp.flags.profile is not None:
+            program = programs.add(f"light {lamp.name}", lamp.flags.profile.program)
+            to_world = (c_double * 16)(*np.asarray(lamp.flags.profile.to_world, np.float64).ravel())
+            self.library.call("glimmer_scene_bind_light", self.handle, number, program, 0, to_world)
 
     def _set_environment(self, environment: d.Environment) -> None:
         self.library.call("glimmer_scene_set_environment_visible", self.handle, int(environment.rays))

@@ -503,6 +503,14 @@ class Spheres:
 # ---- Lights -------------------------------------------------------------------------------------------------------
 
 
+@dataclass(frozen=True, eq=False)
+class LampProfile:
+    """What a lamp's light is multiplied by, which varies over it and with the direction to what it lights."""
+
+    program: Program  # its first output
+    to_world: Floats  # (4, 4), of what the program knows as the object's space
+
+
 @dataclass(frozen=True)
 class LampFlags:
     """What all lamps have."""
@@ -511,6 +519,7 @@ class LampFlags:
     shadows: bool = True
     max_bounces: int | None = None  # None: no limit
     light_group: int = 0
+    profile: LampProfile | None = None
 
 
 @dataclass(frozen=True)

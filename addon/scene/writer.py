@@ -81,7 +81,7 @@ class _Writer:
             "meshes": self._meshes,
             "objects": [self._object(item) for item in scene.objects],
             "spheres": [self._spheres(item) for item in scene.spheres],
-            "lights": [_lamp(lamp) for lamp in scene.lights],
+            "lights": [{**_lamp(lamp), **self._profile(lamp)} for lamp in scene.lights],
             "environment": self._environment(scene.environment),
         }
         if scene.medium is not None:
@@ -111,6 +111,13 @@ class _Writer:
                     for item in mesh.attributes
                 }
         return self._mesh_names[mesh.digest]
+
+    def _profile(self, lamp: d.Lamp) -> Json:
+        profile = lamp.flags.profile
+        if profile is None:
+            return {}
+        program = self._program(f"light {lamp.name}", profile.program)
+        return {"profile": {"factor": {"program": program, "output": 0}, "to_world": _numbers(profile.to_world)}}
 
     def _material(self, name: str, item: d.NamedMaterial) -> Json:
         program = None if item.program is None else self._program(f"material {name}", item.program)

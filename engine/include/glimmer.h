@@ -246,6 +246,13 @@ GLIMMER_API glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t mat
 /* The environment's radiance is an output of a program, in place of glimmer_scene_set_environment. It is asked for
    positions: directions of unit length into the sky. */
 GLIMMER_API glimmer_result glimmer_scene_bind_environment(glimmer_scene *scene, uint32_t program, uint32_t output);
+/* What light `light` of the scene, the first added is 0, shines is multiplied by an output of a program, cut to 0 and
+   more. It is asked for positions on the light; its normal there, which is the direction to what it lights unless the
+   light has a shape of its own; "incoming", that direction; and as the object's space for to_world (row-major, affine).
+   It is met by no kind of ray. A program that asks for ray_length keeps light from being traced from the lamps: what
+   scatters often then takes longer. */
+GLIMMER_API glimmer_result glimmer_scene_bind_light(glimmer_scene *scene, uint32_t light, uint32_t program,
+                                                    uint32_t output, const double to_world[16]);
 /* The bound environment has a sun, which its program shows where geometry_number's sun_disc is 1. The camera sees it in
    the sky; its light is that of a lamp, of the mean of the disc. direction: of the light's travel, not 0; angle: full,
    in degrees, above 0 and up to 180. */

@@ -477,6 +477,30 @@ def lamps_that_are_not_normalized() -> None:
     inside.lamp("SUN", (0.0, 0.0, 5.0), energy=3.0, angle=0.4, normalize=False)
 
 
+def lamp_of_nodes(kind: str, build: Callable[[Any], Any], socket: str, **settings: Any) -> None:
+    inside.plane("Floor", 5.0, inside.material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8, 1.0)))
+    data = inside.lamp(kind, (1.0, -1.0, 3.0), energy=300.0, **settings).data
+    data.use_nodes = True
+    data.node_tree.links.new(build(data.node_tree), data.node_tree.nodes["Emission"].inputs[socket])
+
+
+@case
+def lamp_of_a_pattern() -> None:
+    def pattern(tree: Any) -> Any:
+        normal = make(tree, "ShaderNodeTexCoord", "Normal")
+        return make(tree, "ShaderNodeTexChecker", "Color", inputs={"Vector": normal, "Scale": 3.0})
+
+    lamp_of_nodes("SPOT", pattern, "Color", spot_size=1.5, shadow_soft_size=0.02)
+
+
+@case
+def lamp_of_another_falloff() -> None:
+    def falloff(tree: Any) -> Any:
+        return make(tree, "ShaderNodeLightFalloff", "Linear", inputs={"Strength": 0.5, "Smooth": 3.0})
+
+    lamp_of_nodes("AREA", falloff, "Strength", size=0.5)
+
+
 @case
 def set_behind_the_scene() -> None:
     other = bpy.data.scenes.new("Set")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...scene.program import Op
 from ..affine import inverse
-from .values import Number, Triple, Value, number, op, triple, value_of, vector_math
+from .values import Number, Triple, Value, math, number, op, product, triple, value_of, vector_math
 
 if TYPE_CHECKING:
     from ..nodes import Nodes
@@ -28,6 +28,8 @@ INSTANCER_GENERATED, INSTANCER_UV = "instancer_generated", "instancer_uv"
 # Of instances: from the object's coordinates to generated ones, by which points within it go.
 VOLUME_SCALE, VOLUME_OFFSET = "volume_scale", "volume_offset"
 VOLUME_DENSITY = "volume_density"  # of instances of volume objects: a factor of their density
+
+OF_A_SHAPE, OF_A_PLACE = ("UV", "Parametric"), ("Camera", "Window", "Reflection")
 
 TO_WORLD = ("vector", "object", "world")  # modes of an operation
 
@@ -68,14 +70,28 @@ def place(nodes: Nodes, kind: str) -> Triple:
 
 
 def generated(nodes: Nodes) -> Triple:
+    if nodes.lamp:
+        return geometry(nodes, "object_position")
     if not nodes.in_volume:
         return attribute(nodes, GENERATED)
     place = geometry(nodes, "object_position")
     return vector_math("multiply_add", place, attribute(nodes, VOLUME_SCALE), attribute(nodes, VOLUME_OFFSET))
 
 
+def _is_unknown_of_lamp(nodes: Nodes, source: Source) -> bool:
+    """A lamp has neither coordinates of its own nor, where it is a sun or in Blender 3, a place in the picture."""
+    kind = source.output.identifier
+    has_place = nodes.lamp != "SUN" and nodes.version >= (4, 0)
+    if not nodes.lamp or not (kind in OF_A_SHAPE or (kind in OF_A_PLACE and not has_place)):
+        return False
+    nodes.notice(source.node, f"{source.output.name} of a lamp is not known; it is 0")
+    return True
+
+
 def texture_coordinate(nodes: Nodes, source: Source) -> Value:
     kind = source.output.identifier
+    if _is_unknown_of_lamp(nodes, source):
+        return (0.0, 0.0, 0.0)
     if nodes.is_sky and kind in ("Generated", "Object"):
         if kind == "Object" and source.node.object is not None:
             return _in_space_of(nodes, source.node.object)
@@ -158,6 +174,8 @@ def _attribute_output(nodes: Nodes, source: Source, name: str) -> Value:
 
 def geometry_node(nodes: Nodes, source: Source) -> Value:
     kind = source.output.identifier
+    if _is_unknown_of_lamp(nodes, source):
+        return (0.0, 0.0, 0.0)
     names = {"Position": "position", "Normal": "normal", "True Normal": "true_normal", "Incoming": "incoming"}
     if kind in names:
         return geometry(nodes, names[kind])
@@ -170,7 +188,7 @@ def geometry_node(nodes: Nodes, source: Source) -> Value:
     if kind == "Pointiness":
         return op("separate", attribute(nodes, POINTINESS), modes=("x",))
     if kind == "Tangent":
-        return op("tangent", _around_z(attribute(nodes, GENERATED)))
+        return (0.0, 0.0, 0.0) if nodes.lamp else op("tangent", _around_z(attribute(nodes, GENERATED)))
     return nodes.not_translated(source, f"{source.output.name}")
 
 
@@ -258,9 +276,25 @@ def light_path(nodes: Nodes, source: Source) -> Value:
     known = LIGHT_PATH.get(kind)
     if known is None:
         return nodes.not_translated(source, source.output.name)
-    if kind not in EXACT_IN_LIGHT_PATH:
+    if kind not in EXACT_IN_LIGHT_PATH and not nodes.lamp:
         nodes.notice(source.node, f"{kind}: light that is sampled is asked for as by a diffuse ray, of depth 1")
     return fact(known)
+
+
+def light_falloff(nodes: Nodes, source: Source) -> Value:
+    """Light falls with the square of the distance by itself."""
+    strength, smooth = (number(nodes.input(source, i)) for i in range(2))
+    kind = source.output.identifier
+    if kind == "Quadratic" and (smooth == 0.0 or nodes.lamp == "SUN"):  # which is infinitely far away
+        return value_of(strength)
+    if not nodes.lamp:  # a surface that is sampled as a light does not know the distance
+        return nodes.not_translated(source, source.output.name)
+    distance: Number = fact("ray_length")
+    squared = product(distance, distance)
+    if smooth != 0.0 and nodes.lamp != "SUN":
+        strength = product(strength, math("divide", squared, math("add", squared, smooth)))
+    factors: dict[str, Number] = {"Quadratic": 1.0, "Linear": distance, "Constant": squared}
+    return value_of(product(strength, factors[kind]))
 
 
 def wireframe(nodes: Nodes, source: Source) -> Value:

@@ -52,6 +52,14 @@ void read_area(const Value &value, glimmer_light_desc &desc) {
         desc.spread = spread->number({.low = 0, .high = 180, .open_low = true});
 }
 
+void read_profile(const Value &profile, uint32_t light, const Programs &programs, glimmer_scene *scene) {
+    profile.expect_object({"factor", "to_world"});
+    const Binding binding = programs.read_binding(profile.at("factor"));
+    double to_world[16];
+    copy(profile.at("to_world").matrix(), to_world);
+    check(glimmer_scene_bind_light(scene, light, binding.program, binding.output, to_world), profile.where());
+}
+
 } // namespace
 
 uint32_t read_light_group(const Value &owner) {
@@ -59,7 +67,7 @@ uint32_t read_light_group(const Value &owner) {
     return group ? static_cast<uint32_t>(group->integer(0, GLIMMER_MAX_LIGHT_GROUPS)) : 0;
 }
 
-void read_light(const Value &value, glimmer_scene *scene) {
+void read_light(const Value &value, uint32_t number, const Programs &programs, glimmer_scene *scene) {
     value.expect_table();
     const std::string name = value.path();
     glimmer_light_desc desc;
@@ -68,13 +76,13 @@ void read_light(const Value &value, glimmer_scene *scene) {
     desc.type = kTypes[one_of(value.at("type"), "a light type", "light types", kNames)];
     switch (desc.type) {
     case GLIMMER_POINT:
-        value.expect_object(
-            {"type", "position", "intensity", "radius", "shape", "visible", "shadows", "max_bounces", "light_group"});
+        value.expect_object({"type", "position", "intensity", "radius", "shape", "visible", "shadows", "max_bounces",
+                             "light_group", "profile"});
         read_point(value, desc);
         break;
     case GLIMMER_SPOT:
         value.expect_object({"type", "position", "intensity", "radius", "direction", "angle", "blend", "times_cosine",
-                             "shape", "visible", "shadows", "max_bounces", "light_group"});
+                             "shape", "visible", "shadows", "max_bounces", "light_group", "profile"});
         read_point(value, desc);
         copy(value.at("direction").direction(), desc.direction);
         desc.angle = value.at("angle").number({.low = 0, .high = 180, .open_low = true});
@@ -83,8 +91,8 @@ void read_light(const Value &value, glimmer_scene *scene) {
             desc.times_cosine = cosine->boolean();
         break;
     case GLIMMER_SUN:
-        value.expect_object(
-            {"type", "direction", "irradiance", "angle", "shape", "visible", "shadows", "max_bounces", "light_group"});
+        value.expect_object({"type", "direction", "irradiance", "angle", "shape", "visible", "shadows", "max_bounces",
+                             "light_group", "profile"});
         copy(value.at("direction").direction(), desc.direction);
         copy(value.at("irradiance").color(kNonNegative), desc.color);
         desc.angle = value.has("angle") ? value.at("angle").number(kAngle) : 0;
@@ -92,12 +100,14 @@ void read_light(const Value &value, glimmer_scene *scene) {
         break;
     case GLIMMER_AREA:
         value.expect_object({"type", "to_world", "size", "shape", "radiance", "spread", "visible", "shadows",
-                             "max_bounces", "light_group"});
+                             "max_bounces", "light_group", "profile"});
         read_area(value, desc);
         break;
     }
     read_common(value, desc);
     check(glimmer_scene_add_light(scene, &desc), value.where());
+    if (const auto profile = value.find("profile"))
+        read_profile(*profile, number, programs, scene);
 }
 
 } // namespace glimmer

@@ -69,7 +69,7 @@ void read_object(const Value &object, glimmer_scene *scene, const Programs &prog
                  Meshes &meshes, SceneFolder &folder);
 void read_spheres(const Value &spheres, glimmer_scene *scene, const Programs &programs, const Materials &materials,
                   SceneFolder &folder);
-void read_light(const Value &light, glimmer_scene *scene);
+void read_light(const Value &light, uint32_t number, const Programs &programs, glimmer_scene *scene);
 void read_environment(const Value &environment, const Programs &programs, glimmer_scene *scene, SceneFolder &folder);
 void read_medium(const Value &medium, glimmer_scene *scene);
 /// What an object, or a group of spheres, is filled with, and what the description refers to.

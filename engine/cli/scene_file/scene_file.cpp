@@ -40,8 +40,10 @@ LoadedScene load_scene(const std::filesystem::path &path) {
         value->for_each([&](const Value &object) { read_object(object, handle, programs, materials, meshes, folder); });
     if (const auto value = root.find("spheres"))
         value->for_each([&](const Value &spheres) { read_spheres(spheres, handle, programs, materials, folder); });
-    if (const auto value = root.find("lights"))
-        value->for_each([&](const Value &light) { read_light(light, handle); });
+    if (const auto value = root.find("lights")) {
+        uint32_t number = 0;
+        value->for_each([&](const Value &light) { read_light(light, number++, programs, handle); });
+    }
     if (const auto value = root.find("environment"))
         read_environment(*value, programs, handle, folder);
     if (const auto value = root.find("medium"))

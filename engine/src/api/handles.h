@@ -151,6 +151,13 @@ inline void check_finite(double x, const std::string &what) {
         fail_argument(what + " is " + text(x) + "; allowed: finite numbers");
 }
 
+inline void check_affine(const double *m, const std::string &what) {
+    for (int i = 0; i < 16; ++i)
+        check_finite(m[i], what);
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+        fail_argument(what + ": the last row must be 0 0 0 1");
+}
+
 /// Of a domain that is not allowed.
 inline constexpr size_t kNoRows = ~size_t(0);
 

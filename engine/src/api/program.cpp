@@ -10,6 +10,15 @@ using namespace glimmer;
 
 namespace {
 
+void check_color_output(const SceneDescription &s, uint32_t program, uint32_t output, const std::string &what) {
+    if (program >= s.programs.size())
+        fail_argument(what + ": program " + std::to_string(program) + " was not added");
+    const Program &p = *s.programs[program];
+    if (output >= p.output_count() || p.is_number(output))
+        fail_argument(what + ": output " + std::to_string(output) + " of program \"" + p.name +
+                      "\" is none, or a number; allowed: a colour");
+}
+
 std::shared_ptr<const Texture> make_texture(const glimmer_texture_desc &d) {
     const std::string what = label_of("texture", d.name);
     check_range(d.width, 1, 65536, what + ": width");
@@ -176,13 +185,27 @@ glimmer_result glimmer_scene_bind(glimmer_scene *scene, uint32_t material, const
 glimmer_result glimmer_scene_bind_environment(glimmer_scene *scene, uint32_t program, uint32_t output) {
     return guarded([&] {
         SceneDescription &s = open_scene(scene);
-        if (program >= s.programs.size())
-            fail_argument("environment: program " + std::to_string(program) + " was not added");
-        const Program &p = *s.programs[program];
-        if (output >= p.output_count() || p.is_number(output))
-            fail_argument("environment: output " + std::to_string(output) + " of program \"" + p.name +
-                          "\" is none, or a number; allowed: a colour");
+        check_color_output(s, program, output, "environment");
         s.sky = ParameterBinding{ParameterBinding::kNormal, program, output};
+    });
+}
+
+glimmer_result glimmer_scene_bind_light(glimmer_scene *scene, uint32_t light, uint32_t program, uint32_t output,
+                                        const double to_world[16]) {
+    return guarded([&] {
+        SceneDescription &s = open_scene(scene);
+        if (light >= s.lights.size())
+            fail_argument("bind: light " + std::to_string(light) + " was not added");
+        LightDescription &l = s.lights[light];
+        const std::string what = label_of("light", l.label.c_str());
+        check_color_output(s, program, output, what);
+        if (!to_world)
+            fail_argument(what + ": to_world is null");
+        check_affine(to_world, what + ": to_world");
+        if (const double size = affine_from_rows(to_world).linear.determinant(); !(std::abs(size) > 0))
+            fail_argument(what + ": to_world has no inverse");
+        l.profile = ParameterBinding{ParameterBinding::kNormal, program, output};
+        l.profile_space = affine_from_rows(to_world);
     });
 }
 

@@ -19,13 +19,6 @@ void check_each_least(const T (&values)[N], double low, const std::string &what)
         check_least(double(v), low, what);
 }
 
-void check_affine(const double *m, const std::string &what) {
-    for (int i = 0; i < 16; ++i)
-        check_finite(m[i], what);
-    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
-        fail_argument(what + ": the last row must be 0 0 0 1");
-}
-
 /// Rotation and translation alone, to 1e-4: what comes out of float32 matrices passes.
 void check_rigid(const double *m, const std::string &what) {
     check_affine(m, what);

@@ -35,6 +35,8 @@ struct LightFlags {
     bool shadows = true;          ///< false: nothing stands between it and a point that samples it
     uint32_t max_bounces = kNone; ///< it is sampled no more where the path has scattered more often before
     uint8_t group = 0;            ///< whose pass shows its light; 0: none. Of shining meshes each triangle's says so
+    uint32_t profile = kNone;     ///< of a lamp whose light a program multiplies: its number there
+    float profile_mean = 1;       ///< about the mean of that, to choose by
 };
 
 /// A direction towards a light and what comes from there if nothing stands between (no transmittance).
@@ -50,6 +52,11 @@ struct LightSample {
     bool shadows = true;             ///< LightFlags::shadows
     uint8_t group = 0;               ///< of a shining mesh: LightFlags::group
 };
+
+/// Where that is, as seen from x; at infinity its direction.
+inline Vec3f at_light(const Vec3f &x, const LightSample &sample) {
+    return sample.distance < kInfinity ? x + sample.direction * sample.distance : sample.direction;
+}
 
 /// Where a ray has met a light.
 struct LightHit {

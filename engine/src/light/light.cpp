@@ -44,6 +44,17 @@ LightBound bound_light(const Light &light) {
     return std::visit([](const auto &l) { return bound(l); }, light);
 }
 
+Vec3f lamp_normal(const Light &light, const Vec3f &position, const Vec3f &wo) {
+    if (const auto *area = std::get_if<AreaLamp>(&light))
+        return Vec3f(area->normal);
+    if (const auto *sphere = std::get_if<SphereLamp>(&light)) {
+        const Vec3d from_center = Vec3d(position) - sphere->sphere.center;
+        if (length_squared(from_center) > 0)
+            return Vec3f(normalize(from_center));
+    }
+    return wo;
+}
+
 std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, const EmissionDirection &to,
                                         float u_choice) {
     return std::visit(

@@ -80,6 +80,9 @@ Rgb radiance_from_infinity(const Light &light, const Vec3f &direction, uint8_t r
 
 LightBound bound_light(const Light &light);
 
+/// The normal of a lamp at a point of it, which shines towards wo: lamps without a shape of their own face all.
+Vec3f lamp_normal(const Light &light, const Vec3f &position, const Vec3f &wo);
+
 /// For finite lights; nothing for the sun and the environment. `inwards`: the light is a sphere around all that is to
 /// be seen.
 std::optional<Emission> sample_emission(const Light &light, bool inwards, Vec2f u_position, const EmissionDirection &to,

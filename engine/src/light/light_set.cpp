@@ -41,12 +41,13 @@ float probability_by(uint32_t n, uint32_t light, const Weigh &weigh) {
 
 } // namespace
 
-LightSet::LightSet(std::vector<Light> lights, std::vector<LightFlags> flags)
-    : lights_(std::move(lights)), flags_(std::move(flags)) {
+LightSet::LightSet(std::vector<Light> lights, std::vector<LightFlags> flags, const VaryingEmission *varying)
+    : lights_(std::move(lights)), flags_(std::move(flags)), varying_(varying) {
     std::vector<double> strengths;
     for (uint32_t i = 0; i < lights_.size(); ++i) {
         const Light &light = lights_[i];
         bounds_.push_back(bound_light(light));
+        bounds_.back().strength *= flags_[i].profile_mean;
         strengths.push_back(double(bounds_.back().strength));
         std::visit(
             [&](const auto &l) {

@@ -25,12 +25,21 @@ class LightSet {
 
     LightSet() = default;
     /// flags: of each light.
-    LightSet(std::vector<Light> lights, std::vector<LightFlags> flags);
+    /// varying: what profiles of lamps are asked of; null: there are none.
+    LightSet(std::vector<Light> lights, std::vector<LightFlags> flags, const VaryingEmission *varying = nullptr);
 
     uint32_t size() const { return uint32_t(lights_.size()); }
     const Light &operator[](uint32_t i) const { return lights_[i]; }
     const LightBound &bound(uint32_t i) const { return bounds_[i]; }
     const LightFlags &flags(uint32_t i) const { return flags_[i]; }
+
+    /// What a lamp's light is multiplied by where it leaves along wo. distance: to what it lights.
+    Rgb profile(uint32_t light, const Vec3f &position, const Vec3f &wo, float distance) const {
+        const uint32_t profile = flags_[light].profile;
+        if (profile == kNone)
+            return Rgb(1);
+        return varying_->of_lamp(profile, {position, lamp_normal(lights_[light], position, wo), wo, distance});
+    }
 
     /// By index, what an integrator must ask for besides surfaces: the see-through lamps that rays can meet, and the
     /// lights at infinity.
@@ -69,6 +78,7 @@ class LightSet {
     std::vector<Light> lights_;
     std::vector<LightBound> bounds_;
     std::vector<LightFlags> flags_;
+    const VaryingEmission *varying_ = nullptr;
     std::vector<uint32_t> intersectable_lamps_, infinite_, of_sphere_;
     uint32_t mesh_light_ = kNone;
     AliasTable by_strength_;

@@ -9,6 +9,13 @@
 
 namespace glimmer {
 
+/// Where a lamp is met, and from where.
+struct LampPlace {
+    Vec3f position, normal; ///< of the lamp; its normal towards what it lights
+    Vec3f wo;               ///< unit, from there to what it lights
+    float distance = 0;     ///< to that; infinite for a sun
+};
+
 class VaryingEmission {
   public:
     virtual ~VaryingEmission() = default;
@@ -20,6 +27,8 @@ class VaryingEmission {
     /// Of the sky in a direction, for a ray of these RayFlags; sun_disc: with the disc of its sun, which is else a
     /// lamp.
     virtual Rgb of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const = 0;
+    /// What a lamp's light is multiplied by. profile: LightFlags::profile.
+    virtual Rgb of_lamp(uint32_t profile, const LampPlace &place) const = 0;
 };
 
 } // namespace glimmer

@@ -190,14 +190,27 @@ void SceneBuilder::add_mesh_light(LightList &lights) const {
     lights.add(std::move(light), {});
 }
 
+/// Light subpaths leave a lamp before they know how far they go: what depends on that is left to camera paths.
+void SceneBuilder::add_profile(uint32_t light, LightFlags &flags) {
+    const std::optional<ParameterBinding> &profile = description_.lights[light].profile;
+    if (!profile)
+        return;
+    flags.profile = light;
+    flags.profile_mean = shaders()->mean_of_lamp(light);
+    scene_.has_visibility = true;
+    scene_.techniques_differ |= description_.programs[profile->program]->asks_ray_length();
+}
+
 void SceneBuilder::add_lamps(LightList &lights) {
-    for (const LightDescription &l : description_.lights) {
+    for (uint32_t i = 0; i < description_.lights.size(); ++i) {
+        const LightDescription &l = description_.lights[i];
         const Rgb color = to_rgb(l.color);
         if (is_black(color)) {
             ++black_lights_;
             continue;
         }
-        const LightFlags flags = flags_of(l);
+        LightFlags flags = flags_of(l);
+        add_profile(i, flags);
         const Vec3d position = to_vec(l.position) - origin_;
         switch (l.type) {
         case GLIMMER_POINT:
@@ -332,7 +345,7 @@ void SceneBuilder::build_lights() {
         const bool seen = traits(lights.lights[i]).camera_visible;
         note_flags(lights.flags[i], seen ? kEveryRay : RayMask(kEveryRay & ~mask_of(RayKind::camera)));
     }
-    scene_.lights = LightSet(std::move(lights.lights), std::move(lights.flags));
+    scene_.lights = LightSet(std::move(lights.lights), std::move(lights.flags), shaders());
 }
 
 } // namespace glimmer

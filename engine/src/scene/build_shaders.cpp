@@ -106,6 +106,17 @@ CameraFrame SceneBuilder::camera_frame() const {
     return frame;
 }
 
+void SceneBuilder::add_profiles(ShaderScene &shaders) const {
+    for (const LightDescription &light : description_.lights) {
+        LampProfile &profile = shaders.lamps.emplace_back();
+        if (!light.profile)
+            continue;
+        profile.output = *light.profile;
+        set_axes(profile.frame, light.profile_space.linear);
+        profile.frame.location = Vec3f(light.profile_space.translation);
+    }
+}
+
 void SceneBuilder::build_shaders() {
     const size_t count = description_.materials.size();
     std::vector<uint32_t> varying;
@@ -115,7 +126,9 @@ void SceneBuilder::build_shaders() {
     bool has_aovs = false;
     for (uint32_t i = 0; i < count; ++i)
         has_aovs |= used_[i] && !description_.materials[i].aovs.empty();
-    if (varying.empty() && !description_.sky && !has_aovs)
+    const bool has_profiles =
+        std::ranges::any_of(description_.lights, [](const LightDescription &light) { return bool(light.profile); });
+    if (varying.empty() && !description_.sky && !has_aovs && !has_profiles)
         return;
     auto shaders = std::make_shared<ShaderScene>();
     for (const MaterialDescription &m : description_.materials) {
@@ -136,6 +149,7 @@ void SceneBuilder::build_shaders() {
     shaders->sphere_materials = scene_.sphere_materials;
     shaders->sky = description_.sky;
     shaders->camera = camera_frame();
+    add_profiles(*shaders);
     shaders->pixel_width = 2 * shaders->camera.half_width / float(scene_.film.width);
     for (const Instance &instance : scene_.accel->instances()) {
         shaders->frames.push_back(frame_of(instance, origin_));

@@ -39,9 +39,11 @@ class SceneBuilder {
     ShaderScene *shaders() const; ///< null: nothing varies
     bool shines_varying(uint32_t material) const;
     Rgb mean_for_choice(uint32_t instance, uint32_t triangle, int side) const;
+    void add_profiles(ShaderScene &shaders) const;
     void add_attributes_of_instances(ShaderScene &shaders, const AttributeNumbers &names) const;
     void add_sky(LightList &lights);
     void add_sun_of_sky(LightList &lights);
+    void add_profile(uint32_t light, LightFlags &flags);
     /// interior: the index of the body that the material bounds, 0 for none.
     MaterialBounds bounds_of_varying(uint32_t material, float &interior) const;
     void use(uint32_t material);

@@ -84,6 +84,8 @@ struct SkySunDescription {
 /// A plain value once its strings have been copied out.
 struct LightDescription : glimmer_light_desc {
     std::string label;
+    std::optional<ParameterBinding> profile;
+    Affine profile_space; ///< the program's object space, to the world
 };
 
 struct SceneDescription {

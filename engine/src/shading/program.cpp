@@ -55,6 +55,12 @@ struct Registers {
     }
 };
 
+/// The number of a mode's word in its first field.
+size_t number_of(std::string_view modes, std::string_view word) {
+    const std::string_view before = modes.substr(0, modes.find(word));
+    return size_t(std::ranges::count(before, ' '));
+}
+
 void check_modes(const Instruction &i, const glimmer_op_info_t &info, const std::string &what) {
     for (size_t field = 0; field < std::size(i.mode); ++field) {
         const size_t words = std::max(words_of_field(info.modes, field), size_t(1));
@@ -165,6 +171,7 @@ void Program::check(const glimmer_program_desc &desc) {
                           std::to_string(kMostRegisters - 1));
         registers.kinds[i.out] = info.output == 'n' ? Registers::Kind::number : Registers::Kind::vector;
         const bool box = (Op(i.op) == Op::image || Op(i.op) == Op::image_alpha) && i.mode[0] == 1;
+        asks_ray_length_ |= Op(i.op) == Op::geometry_number && i.mode[0] == number_of(info.modes, "ray_length");
         constant_ = constant_ && !asks_the_place(Op(i.op)) && !box;
         instructions_.push_back(i);
     }

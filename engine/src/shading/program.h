@@ -37,6 +37,8 @@ class Program {
     bool is_number(size_t output) const { return number_outputs_[output]; }
     /// Whether no instruction asks anything about the place.
     bool is_constant() const { return constant_; }
+    /// Whether an instruction asks how long the ray was that meets the place.
+    bool asks_ray_length() const { return asks_ray_length_; }
     const std::vector<std::string> &attribute_names() const { return attribute_names_; }
     /// The scene's numbers of the attributes' names, in their order.
     void set_attribute_ids(std::vector<uint32_t> ids) { attribute_ids_ = std::move(ids); }
@@ -58,7 +60,7 @@ class Program {
     std::vector<uint32_t> attribute_ids_;
     std::vector<uint16_t> outputs_;
     std::vector<bool> number_outputs_;
-    bool constant_ = true;
+    bool constant_ = true, asks_ray_length_ = false;
 };
 
 } // namespace glimmer

@@ -63,18 +63,22 @@ bool may_shine(const MaterialDescription &node, std::span<const ParameterBinding
            gives(bindings, "radiance");
 }
 
-ObjectFrame frame_of(const Instance &instance, const Vec3d &origin, ObjectFrame frame) {
-    Linear linear;
-    for (size_t r = 0; r < 3; ++r) {
-        frame.to_world[r] = instance.linear[r];
-        linear.rows[r] = Vec3d(instance.linear[r]);
-    }
+void set_axes(ObjectFrame &frame, const Linear &linear) {
+    for (size_t r = 0; r < 3; ++r)
+        frame.to_world[r] = Vec3f(linear.rows[r]);
     const Linear cofactor = linear.cofactor();
     const double determinant = linear.determinant();
     const std::array<Vec3d, 3> &c = cofactor.rows; // the inverse is their transpose over the determinant
     frame.to_object = {Vec3f(Vec3d(c[0].x, c[1].x, c[2].x) / determinant),
                        Vec3f(Vec3d(c[0].y, c[1].y, c[2].y) / determinant),
                        Vec3f(Vec3d(c[0].z, c[1].z, c[2].z) / determinant)};
+}
+
+ObjectFrame frame_of(const Instance &instance, const Vec3d &origin, ObjectFrame frame) {
+    Linear linear;
+    for (size_t r = 0; r < 3; ++r)
+        linear.rows[r] = Vec3d(instance.linear[r]);
+    set_axes(frame, linear);
     const Vec3d &m = instance.mesh->center;
     frame.location = Vec3f(Vec3d(instance.translation) + origin -
                            Vec3d(dot(linear.rows[0], m), dot(linear.rows[1], m), dot(linear.rows[2], m)));
@@ -279,19 +283,50 @@ Rgb ShaderScene::of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo
     return emission(varying_of[at.material], at, {.wo = wo, .arrival = kFromDiffuse});
 }
 
-Rgb ShaderScene::of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const {
+Rgb ShaderScene::light_of(const ParameterBinding &output, const ShaderGlobals &globals) const {
     static thread_local std::vector<Vec3f> values;
+    values.resize(programs[output.program]->output_count());
+    programs[output.program]->evaluate(globals, values.data());
+    const Vec3f &v = values[output.output];
+    const auto light = [](float x) { return x > 0 ? std::min(x, 1e30f) : 0.0f; };
+    return {light(v.x), light(v.y), light(v.z)};
+}
+
+Rgb ShaderScene::of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const {
     ShaderGlobals g;
     g.position = g.object_position = direction;
     g.normal = g.true_normal = g.incoming = -direction;
     g.camera = &camera;
     g.arrival = {ray, ray & kCameraRay ? 0.0f : 1.0f, 0};
     g.sun_disc = sun_disc;
-    values.resize(programs[sky->program]->output_count());
-    programs[sky->program]->evaluate(g, values.data());
-    const Vec3f &v = values[sky->output];
-    const auto light = [](float x) { return x > 0 ? std::min(x, 1e30f) : 0.0f; };
-    return {light(v.x), light(v.y), light(v.z)};
+    return light_of(*sky, g);
+}
+
+Rgb ShaderScene::of_lamp(uint32_t profile, const LampPlace &place) const {
+    const LampProfile &lamp = lamps[profile];
+    ShaderGlobals g;
+    g.position = Vec3f(Vec3d(place.position) + origin);
+    const Vec3f from_location = g.position - lamp.frame.location;
+    const auto &[x, y, z] = lamp.frame.to_object;
+    g.object_position = {dot(x, from_location), dot(y, from_location), dot(z, from_location)};
+    g.normal = g.true_normal = place.normal;
+    g.incoming = place.wo;
+    g.object = &lamp.frame;
+    g.camera = &camera;
+    g.arrival = {0, 1, place.distance}; // by no kind of ray, as in Cycles
+    return light_of(lamp.output, g);
+}
+
+float ShaderScene::mean_of_lamp(uint32_t profile) const {
+    constexpr int kSide = 8;
+    float sum = 0;
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            const Vec3f wo = sample_uniform_sphere({(float(i) + 0.5f) / kSide, (float(j) + 0.5f) / kSide});
+            const Vec3f position(Vec3d(lamps[profile].frame.location) - origin);
+            sum += mean_component(of_lamp(profile, {position, wo, wo, 1}));
+        }
+    return sum / (kSide * kSide);
 }
 
 Rgb ShaderScene::mean_of_triangle(uint32_t instance, uint32_t primitive, int side) const {

@@ -30,6 +30,8 @@ struct VaryingMaterial {
 /// Whether a node of a material shines by itself, for all that is known of its programs.
 bool may_shine(const MaterialDescription &node, std::span<const ParameterBinding> bindings);
 
+/// Sets an object's space by the linear part of its matrix to the world.
+void set_axes(ObjectFrame &frame, const Linear &to_world);
 /// `rest`: what has no place.
 ObjectFrame frame_of(const Instance &instance, const Vec3d &origin, ObjectFrame rest = {});
 /// The scene's number of every name of an attribute that programs ask for.
@@ -37,6 +39,12 @@ using AttributeNumbers = std::map<std::string, uint32_t>;
 /// Numbers the names, by which programs look them up from now on.
 AttributeNumbers number_attributes(std::span<const std::shared_ptr<Program>> programs);
 std::vector<AttributeView> views_of(std::span<const MeshAttribute> attributes, const AttributeNumbers &names);
+
+/// What a lamp's light is multiplied by, and the space that its program knows as the object's.
+struct LampProfile {
+    ParameterBinding output;
+    ObjectFrame frame;
+};
 
 class ShaderScene : public VaryingEmission {
   public:
@@ -57,6 +65,7 @@ class ShaderScene : public VaryingEmission {
     std::vector<uint32_t> sphere_materials;               ///< by sphere
     std::vector<std::vector<ParameterBinding>> aovs;      ///< by material, see MaterialDescription; empty: none has any
     std::optional<ParameterBinding> sky;                  ///< the radiance of the environment
+    std::vector<LampProfile> lamps;                       ///< by light of the description
 
     /// Prepares a material of the scene that varies. Throws Error where it has too many parts.
     void add(uint32_t material);
@@ -72,11 +81,14 @@ class ShaderScene : public VaryingEmission {
     Rgb of_triangle(uint32_t instance, uint32_t primitive, Vec2f uv, const Vec3f &wo) const override;
     Rgb of_sphere(uint32_t sphere, const Vec3f &normal, const Vec3f &wo) const override;
     Rgb of_sky(const Vec3f &direction, uint8_t ray, bool sun_disc) const override;
+    Rgb of_lamp(uint32_t profile, const LampPlace &place) const override;
 
     /// The mean radiance of a triangle or sphere over a few places, seen along its normal: it guides choices alone.
     /// side: places along an edge of the triangle.
     Rgb mean_of_triangle(uint32_t instance, uint32_t primitive, int side) const;
     Rgb mean_of_sphere(uint32_t sphere) const;
+    /// About the mean of a lamp's profile, at a distance of 1.
+    float mean_of_lamp(uint32_t profile) const;
 
   private:
     struct Place {
@@ -88,6 +100,8 @@ class ShaderScene : public VaryingEmission {
     /// What the programs of a material give at a place.
     std::span<const Vec3f> evaluate(const VaryingMaterial &material, const Interaction &surface,
                                     const View &view) const;
+    /// Light that an output gives: what is no number or negative is dark.
+    Rgb light_of(const ParameterBinding &output, const ShaderGlobals &globals) const;
     Rgb emission(uint32_t varying, const Interaction &surface, const View &view) const;
     Interaction on_triangle(uint32_t instance, uint32_t primitive, Vec2f uv) const;
 };

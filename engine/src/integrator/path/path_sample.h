@@ -247,6 +247,8 @@ class PathSample {
                 const LightFlags &own = scene().lights.flags(light);
                 s->visible &= own.visible;
                 s->shadows = own.shadows;
+                if (own.profile != kNone)
+                    s->radiance *= scene().lights.profile(light, at_light(x, *s), -s->direction, s->distance);
             }
             return s;
         } else if constexpr (F.other_lights) {
@@ -254,6 +256,13 @@ class PathSample {
         } else {
             return sample_emissive_sphere(scene().lights[light], x, u);
         }
+    }
+    /// What a lamp's light is multiplied by where the path's ray meets it.
+    Rgb profile(const State &state, uint32_t light, const Vec3f &position, float distance) const {
+        if constexpr (F.visibility)
+            return scene().lights.profile(light, position, -state.ray.direction, distance);
+        else
+            return Rgb(1);
     }
     /// f |cos_i| towards a light, of the lobes that it is visible to.
     static Rgb eval_for(const LightSample &light, const Bsdf &bsdf, const Vec3f &wo, const Vec3f &wi) {

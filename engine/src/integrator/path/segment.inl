@@ -149,8 +149,10 @@ void PathSample<F>::add_lamps(const State &state, float end, const Medium *mediu
     for (uint32_t light : scene().lights.intersectable_lamps())
         if (sees_light(state, light))
             if (const auto lamp = intersect_lamp(scene().lights[light], ray))
-                add_emitted(state, lamp->radiance * emission_mis_weight(state, light, {lamp->t}), lamp->t, medium,
-                            scene().lights.flags(light).group);
+                add_emitted(state,
+                            lamp->radiance * profile(state, light, ray.origin + ray.direction * lamp->t, lamp->t) *
+                                emission_mis_weight(state, light, {lamp->t}),
+                            lamp->t, medium, scene().lights.flags(light).group);
 }
 
 template <KernelFeatures F>
@@ -172,7 +174,8 @@ void PathSample<F>::add_infinity(const State &state, const Medium *medium) {
     for (uint32_t light : scene().lights.infinite()) {
         if (!sees_light(state, light))
             continue;
-        const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction, state.ray_flags);
+        const Rgb radiance = radiance_from_infinity(scene().lights[light], state.ray.direction, state.ray_flags) *
+                             profile(state, light, state.ray.direction, kInfinity);
         if (!is_black(radiance))
             add_emitted(state, radiance * emission_mis_weight(state, light, {kInfinity}), kInfinity, medium,
                         scene().lights.flags(light).group,

@@ -120,7 +120,8 @@ std::optional<SubpathStart> SubpathStarts::from_infinity(uint32_t light, Shutter
     const Vec2f p = sample_uniform_disk(u_position);
     const Frame frame(from->direction);
     const Vec3f target = center + (frame.x * p.x + frame.y * p.y) * radius;
-    const Rgb irradiance = from->radiance * (1 / from->pdf);
+    const Rgb irradiance =
+        from->radiance * (1 / from->pdf) * scene_.lights.profile(light, from->direction, -from->direction, kInfinity);
     const Ray ray{target + from->direction * (2 * scene_.bounds_radius), -from->direction, time};
     const float on_media = max_component(irradiance) * kPi * media_->bounds_radius() * media_->bounds_radius();
     const Rgb power = irradiance * (1 / disk_density(target, from->direction, own));
@@ -156,11 +157,14 @@ std::optional<SubpathStart> SubpathStarts::from_light(uint32_t light, ShutterTim
     }
     const bool inwards = sides == Side::both ? sampler.next_1d() < 0.5f : sides == Side::inwards;
     auto start = sample_emission(scene_.lights[light], inwards, u_position, to, sampler.next_1d());
-    if (!start || is_black(start->power))
+    if (!start)
         return std::nullopt;
     if (!cones.empty() && !to.is_given() && 1 - dot(start->ray.direction, axis) < cones.back())
         return std::nullopt;
     start->ray.time = time;
+    start->power *= scene_.lights.profile(light, start->ray.origin, start->ray.direction, 0);
+    if (is_black(start->power))
+        return std::nullopt;
     if (start->dark > 0)
         start->power *= passes_dark(scene_, *start, rays);
     const float per_choice = sides == Side::both ? 2 : choices; // spheres that shine to both sides have no cones
