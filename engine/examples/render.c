@@ -100,7 +100,7 @@ int main(void) {
 
     glimmer_render_desc desc;
     glimmer_render_init(&desc);
-    desc.samples = 32;
+    desc.samples = 16;
     glimmer_render *render;
     check(glimmer_render_create(scene, &desc, &render));
     glimmer_scene_destroy(scene); /* the render holds it */

@@ -59,7 +59,7 @@ def test_c_program(glimmer_command: Path, tmp_path: Path) -> None:
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    assert "100 %, 32 samples a pixel" in done.stderr and done.stdout.startswith("render.pfm: relMSE ")
+    assert "100 %, 16 samples a pixel" in done.stderr and done.stdout.startswith("render.pfm: relMSE ")
     pixels = read_pfm(tmp_path / "render.pfm")
     assert pixels.shape == (180, 320, 3) and np.isfinite(pixels).all()
     moon = pixels[38:46, 226:234].mean(axis=(0, 1))

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "shading/material_schema.h"
+#include "shading/program.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 
 /// A width that varies stays above this, so that a surface is either a mirror or none.
 constexpr float kLeastVaryingAlpha = 1e-3f;
-constexpr float kLeastPositive = 1e-3f, kMost = 1e30f;
+constexpr float kLeastPositive = 1e-3f;
 
 Brushed to_brushed(const MaterialDescription &m, const Conductor &metal) {
     return {metal, std::clamp(m.alpha / m.aspect, kSmoothAlpha, 1.0f),
@@ -80,7 +81,7 @@ struct Put {
     MaterialDescription &out;
 
     float low() const { return info.above_low ? std::max(float(info.low), kLeastPositive) : float(info.low); }
-    float high() const { return float(std::min(info.high, double(kMost))); }
+    float high() const { return float(std::min(info.high, double(kMostOfPrograms))); }
 
     void operator()(float MaterialDescription::*member) const {
         const float least = member == &MaterialDescription::alpha ? kLeastVaryingAlpha : low();

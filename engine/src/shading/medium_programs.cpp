@@ -10,10 +10,10 @@ namespace glimmer {
 
 namespace {
 
-constexpr float kMost = 1e30f, kMostG = 0.999f;
+constexpr float kMostG = 0.999f;
 
 float cut(float x) {
-    return x > 0 ? std::min(x, kMost) : 0.0f; // NaN is none
+    return x > 0 ? std::min(x, kMostOfPrograms) : 0.0f; // NaN is none
 }
 
 /// Everything that a medium knows of its place: no surface is there.

@@ -22,6 +22,9 @@ struct ColorTable {
     float low = 0, high = 1;
 };
 
+/// What is larger among the values of programs is cut to this, so that products of them stay finite.
+inline constexpr float kMostOfPrograms = 1e30f;
+
 class Program {
   public:
     static constexpr size_t kMostInstructions = 4096, kMostRegisters = 256, kMostConstants = 8192, kMostResources = 256,

@@ -288,7 +288,7 @@ Rgb ShaderScene::light_of(const ParameterBinding &output, const ShaderGlobals &g
     values.resize(programs[output.program]->output_count());
     programs[output.program]->evaluate(globals, values.data());
     const Vec3f &v = values[output.output];
-    const auto light = [](float x) { return x > 0 ? std::min(x, 1e30f) : 0.0f; };
+    const auto light = [](float x) { return x > 0 ? std::min(x, kMostOfPrograms) : 0.0f; };
     return {light(v.x), light(v.y), light(v.z)};
 }
 
