@@ -14,29 +14,38 @@ from ..scene.description import Mesh, Object, Rays
 from ..scene.problems import Notices, place
 
 DECIMALS = 6  # to which matrices are held against each other
+MOST_PLACES = 100_000  # that are
 
 
 def warn_of_doubled_objects(objects: Iterable[Object], notices: Notices) -> None:
-    """The instances of one Object are not held against each other: there may be very many."""
+    """The instances of one Object are not held against each other, nor those of more than one beyond MOST_PLACES:
+    there may be very many."""
     of_size: dict[tuple[int, int], list[Object]] = defaultdict(list)
     for item in objects:
         if item.rays & Rays.CAMERA and item.interior is None:
             of_size[len(item.mesh.vertices), len(item.mesh.triangles)].append(item)
     for alike in of_size.values():
+        of_shape: dict[bytes, list[Object]] = defaultdict(list)
         if len(alike) > 1:
-            _warn_of(alike, notices)
+            digests = {id(item.mesh): _digest(item.mesh) for item in alike}
+            for item in alike:
+                of_shape[digests[id(item.mesh)]].append(item)
+        for same in of_shape.values():
+            count = sum(1 if item.instances is None else len(item.instances) for item in same)
+            if len(same) > 1 and count <= MOST_PLACES:
+                _warn_of(same, notices)
 
 
-def _warn_of(alike: list[Object], notices: Notices) -> None:
-    digests = {id(item.mesh): _digest(item.mesh) for item in alike}
-    names: dict[tuple[bytes, bytes], str] = {}  # by shape and place, of the object that was there first
-    for item in alike:
-        keys = [(digests[id(item.mesh)], matrix) for matrix in _places(item)]
-        first = next((names[key] for key in keys if key in names), None)
+def _warn_of(same: list[Object], notices: Notices) -> None:
+    """Of objects of one shape."""
+    names: dict[bytes, str] = {}  # by place, of the object that was there first
+    for item in same:
+        places = _places(item)
+        first = next((names[at] for at in places if at in names), None)
         if first is not None:
             other = "another of its instances" if first == item.name else f"object '{first}'"
             notices.add(place(item.name), f"lies on {other}, which Cycles shows with dark spots")
-        names.update(dict.fromkeys(keys, item.name))
+        names.update(dict.fromkeys(places, item.name))
 
 
 def _digest(mesh: Mesh) -> bytes:

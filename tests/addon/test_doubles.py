@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from addon.export import doubles
 from addon.export.doubles import warn_of_doubled_objects
 from addon.scene.description import Floats, Medium, Object, Rays
 from addon.scene.problems import Notices
@@ -54,6 +55,12 @@ def test_others_are_not(other: Object) -> None:
 def test_an_instance_that_lies_on_an_object_is_told_once() -> None:
     many = Object("many", BOX, (0,), instances=np.stack([moved(x) for x in (0.0, 1.0, 2.0, 3.0)]))
     assert told(FIRST, many) == [("object 'many'", "lies on object 'a'")]
+
+
+def test_very_many_places_are_not_held_against_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    many = Object("many", BOX, (0,), instances=np.stack([moved(x) for x in (0.0, 1.0, 2.0, 3.0)]))
+    monkeypatch.setattr(doubles, "MOST_PLACES", 4)
+    assert told(FIRST, many) == []
 
 
 def test_the_same_object_twice_is_told() -> None:
