@@ -151,3 +151,26 @@ def test_a_sky_is_a_colour_of_a_program(scene: c_void_p) -> None:
     refused(sky(scene, program, 1), ARGUMENT, "environment", "or a number; allowed: a colour")
     refused(sky(scene, program, 2), ARGUMENT, "environment")
     refused(sky(scene, program + 1, 0), ARGUMENT, "was not added")
+
+
+def test_a_lamp_is_multiplied_by_a_colour_of_a_program(scene: c_void_p) -> None:
+    _, program = add_program(scene, COLOR, NUMBER)
+    lamp = engine().init(structs.LightDesc)
+    lamp.name = b"lamp"
+    assert functions().glimmer_scene_add_light(scene, byref(lamp)) == OK
+
+    def bind(light: int = 0, program: int = program, output: int = 0, size: float = 1.0) -> int:
+        to_world = np.diag([size, 1.0, 1.0, 1.0])
+        return int(
+            functions().glimmer_scene_bind_light(
+                scene, light, program, output, to_world.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+            )
+        )
+
+    assert bind() == OK and bind(size=-2.0) == OK
+    refused(bind(light=1), ARGUMENT, "light 1 was not added")
+    refused(bind(program=program + 1), ARGUMENT, 'light "lamp"', "was not added")
+    refused(bind(output=1), ARGUMENT, 'light "lamp"', "or a number; allowed: a colour")
+    refused(bind(size=0.0), ARGUMENT, 'light "lamp": to_world has no inverse')
+    refused(bind(size=float("nan")), ARGUMENT, 'light "lamp": to_world')
+    refused(functions().glimmer_scene_bind_light(scene, 0, program, 0, None), ARGUMENT, "to_world is null")

@@ -306,6 +306,14 @@ BAD = [
         'lights[0].visible[0]: "light" is not a kind of rays; kinds of rays are "camera", "diffuse", "glossy", '
         '"transmission", "volume", "shadow"',
     ),
+    Bad(("lights", 0, "profile"), {"to_world": 1}, 'lights[0].profile: the key "factor" is missing'),
+    Bad(
+        ("lights", 0, "profile"),
+        {"factor": {"program": "none"}, "to_world": scenes.IDENTITY},
+        'lights[0].profile.factor.program: "none" is not a program',
+    ),
+    Bad(("film", "pixel_aspect"), 0, "film.pixel_aspect: 0 is not a number above 0"),
+    Bad(("film", "pixel_aspect"), 2000, "film: pixel_aspect is 2000; allowed: 0.001 to 1000"),
     Bad(("lights", 0, "shadows"), 0, "lights[0].shadows: 0 is not true or false"),
     Bad(("lights", 0, "max_bounces"), -1, "lights[0].max_bounces: -1 is not an integer from 0 to 4294967295"),
     Bad(("lights", 0, "shape"), "ellipse", 'lights[0].shape: "ellipse" is not a shape; shapes are "sphere", "disk"'),
