@@ -17,7 +17,7 @@ from ..scene.problems import Notices
 from ..scene.program import Op
 from .fold import FOLDS, MEANS, Folder
 from .sockets import Constant, Input, NotConstantError, Source, as_color, as_number, default_value, find_input
-from .translate import arithmetic, image, pattern, sky, surface, vector
+from .translate import arithmetic, ies, image, pattern, sky, surface, vector
 from .translate import color as color_nodes
 from .translate.values import Number, Triple, Value, converted, number, triple
 
@@ -371,6 +371,7 @@ _OPERATIONS: dict[str, Callable[[Nodes, Source], Value]] = {
     "ShaderNodeTexGabor": pattern.gabor,
     "ShaderNodeTexImage": image.image_texture,
     "ShaderNodeTexEnvironment": image.image_texture,
+    "ShaderNodeTexIES": ies.ies_texture,
     "ShaderNodeTexSky": sky.sky_texture,
     "ShaderNodeTexCoord": surface.texture_coordinate,
     "ShaderNodeUVMap": surface.uv_map,

@@ -501,6 +501,31 @@ def lamp_of_another_falloff() -> None:
     lamp_of_nodes("AREA", falloff, "Strength", size=0.5)
 
 
+def photometry(tree: Any) -> Any:
+    """Of a quarter turn."""
+    down, around = range(0, 100, 10), range(0, 91, 30)
+    rows = [[1000.0 + 9.0 * a * (a < 60) - 5.0 * b for a in down] for b in around]
+    numbers = [1, 1000, 1.5, len(down), len(around), 1, 2, 0, 0, 0, 0.9, 0.8, 100, *down, *around]
+    numbers += [candela for row in rows for candela in row]
+    text = bpy.data.texts.new("Photometry")
+    text.from_string("IESNA:LM-63-2002\nTILT=NONE\n" + " ".join(map(str, numbers)))
+
+    output = make(tree, "ShaderNodeTexIES", "Fac", inputs={"Strength": 0.02}, mode="INTERNAL")
+    output.node.ies = text
+    return output
+
+
+@case
+def point_of_photometry() -> None:
+    lamp_of_nodes("POINT", photometry, "Strength", shadow_soft_size=0.02)
+
+
+@case
+def area_of_photometry() -> None:
+    """Before Blender 4 it goes by the lamp's normal, which is one."""
+    lamp_of_nodes("AREA", photometry, "Strength", size=0.2)
+
+
 @case
 def set_behind_the_scene() -> None:
     other = bpy.data.scenes.new("Set")

@@ -84,7 +84,7 @@ struct SampleParts {
     FilmSample seen;      ///< of emissive spheres that the camera's own ray met: each pixel has its weight for them
     FilmSample resampled; ///< light of another point of the pixel
     Vec2f resampled_at;   ///< its offset from the middle
-    FilmSample own;       ///< light of many points, drawn by the filter of the pixel, which counts there alone
+    FilmSample own;       ///< light of many points of the pixel, drawn by its filter, which counts there alone
     PassSample seen_passes, resampled_passes, own_passes; ///< the same of what only some passes show
 
     /// Makes it that of a sample that has met nothing yet.

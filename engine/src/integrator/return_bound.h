@@ -7,7 +7,7 @@
 namespace glimmer {
 
 /// A factor for Russian roulette: 1 within a mean free path of the scene's bounds; beyond, the probability that a
-/// random walk from distance r returns to the radius R, (R/r)^2 e^(-kappa (r - R)), with kappa the effective
+/// random walk from distance r returns to that radius R, (R/r)^2 e^(-kappa (r - R)), with kappa the effective
 /// attenuation of the channel that carries light furthest. Without it, a path in an endless medium of albedo 1 would
 /// never end. Only the survival probability depends on it, so an inaccurate value costs noise but never a bias.
 float return_bound(const Scene &scene, const Vec3f &x);

@@ -55,14 +55,8 @@ struct LightVertexPlan {
     std::string left_out; ///< why there is no cache, a line for the report; empty where no medium scatters
 };
 
-/// The cache for a scene. grouped: passes show light by its group. There is none (docs/method.md, section 9) without a
-/// medium that scatters, and for
-/// - media within surfaces, unless it is one that does not shine, within one convex body;
-/// - a phase function with too narrow a peak, which all but unbounds the connections;
-/// - a camera within a dielectric, whose rays do not scatter in the medium;
-/// - depth limits that leave no room for a light vertex and a gather point;
-/// - a medium so dense and white that light wanders through all of the scene;
-/// - lights that are all infinite, from which no light subpath could start.
+/// The cache for a scene. grouped: passes show light by its group. docs/method.md, section 9, lists where there is
+/// none.
 LightVertexPlan plan_light_vertex_cache(const Scene &scene, const DepthLimits &limits,
                                         const InteriorStack &around_camera, bool grouped);
 

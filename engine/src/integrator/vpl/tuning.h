@@ -2,8 +2,8 @@
 // Every constant of the light vertex cache that was not forced by a formula. Sections are those of docs/method.md.
 //   derived:  follows from the formula or the argument that is named.
 //   measured: `build.py bench --tuning NAME` varies the constant and prints variance times CPU time against this value.
-//   chosen:   set by hand. The same command varies it as well; nobody has to believe that it is the best value.
-// None of them changes the mean of a picture, only its noise and its time; see the note at kBsdfBound.
+//   chosen:   set by hand; nobody has to believe that it is the best value. The same command varies most of them.
+// None of them changes the mean of light transport, only its noise and its time.
 #pragma once
 
 #include "base/tunable.h"
@@ -66,8 +66,8 @@ GLIMMER_TUNABLE_CONSTANT(uint32_t, kMostPilotPaths, 2048);
 
 /// Clamp distance in mean free paths where the pilot found too few vertices to know a density. Chosen.
 GLIMMER_TUNABLE_CONSTANT(float, kClampDistanceWithoutVertices, 0.1f);
-/// Upper bound on the clamp distance in mean free paths. Derived: beyond one, a compensation ray is an ordinary free
-/// flight and the connections bring next to nothing.
+/// Upper bound on the clamp distance in mean free paths, before it grows with the phase function's peak. Derived:
+/// beyond one, a compensation ray is an ordinary free flight and the connections bring next to nothing.
 GLIMMER_TUNABLE_CONSTANT(float, kMostClampDistance, 1);
 /// Clamp distance towards surface vertices over that towards medium vertices. Chosen.
 GLIMMER_TUNABLE_CONSTANT(float, kSurfaceClampFactor, 2);

@@ -45,7 +45,7 @@ inline float bounding_weight(float d, float d0) {
 }
 
 /// Sets everything from the size of the picture and from a pilot of light subpaths. The scene has a medium that
-/// scatters, and a light that is not infinite.
+/// scatters.
 VplSettings make_vpl_settings(const Scene &scene, const DepthLimits &limits, const InteriorStack &around_camera);
 
 } // namespace glimmer
