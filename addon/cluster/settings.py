@@ -21,6 +21,7 @@ COMMAND_VARIABLE, SCHEDULER_VARIABLE = "GLIMMER_BIN", "GLIMMER_SCHEDULER"  # whe
 WHERE = "Preferences > Add-ons > Glimmer > Command"
 FIRST_OF_ALL = "Render on Cluster"  # of notices
 TASKS_FOR_THE_NOISE = 8  # the error is that of as many replicates
+LEAST_TASK_SAMPLES = 2
 SAMPLES_BEFORE_ADAPTING = 16
 
 
@@ -66,11 +67,11 @@ def note_differences(
     if samples and tasks * size != samples:
         notices.add(FIRST_OF_ALL, f"{samples} samples are {tasks} tasks of {size}, {tasks * size} in all")
     if samples and tasks < TASKS_FOR_THE_NOISE:
-        notices.add(
-            FIRST_OF_ALL,
-            f"the noise is not known below {TASKS_FOR_THE_NOISE} tasks; Samples per Task may be"
-            f" {max(samples // TASKS_FOR_THE_NOISE, 2)}",
-        )
+        size_for_it = samples // TASKS_FOR_THE_NOISE
+        way = f"make Samples per Task {size_for_it} or less"
+        if size_for_it < LEAST_TASK_SAMPLES:
+            way = f"that takes {TASKS_FOR_THE_NOISE * LEAST_TASK_SAMPLES} samples"
+        notices.add(FIRST_OF_ALL, f"the noise is not known below {TASKS_FOR_THE_NOISE} tasks: {way}")
     if samples and tasks < 2 and any(item.engine_name == "stderr" for item in passes):
         notices.add(FIRST_OF_ALL, "the pass Standard Error is black where there is but one task")
     if any(item.matte for item in passes):

@@ -6,6 +6,7 @@ from zlib import crc32
 import bpy
 
 from ..callbacks import of_group, of_group_and
+from ..cluster.settings import LEAST_TASK_SAMPLES
 from ..film.noise import percent, relmse_of
 from ..native.library import load
 from ..scene.problems import GlimmerError
@@ -237,7 +238,7 @@ class GlimmerSceneSettings(bpy.types.PropertyGroup):
         description="Each task loads the scene anew and should take much longer than that; there should be several for"
         " each worker, and the noise is known from eight on",
         default=8,
-        min=2,
+        min=LEAST_TASK_SAMPLES,
         soft_max=1024,
     )
     tile_size: bpy.props.IntProperty(
