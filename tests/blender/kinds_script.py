@@ -527,6 +527,18 @@ def area_of_photometry() -> None:
 
 
 @case
+def rays_of_mixed_closures() -> None:
+    """A floor that is red to glossy rays, about a ball that is diffuse and glossy."""
+    shader = inside.material("ShaderNodeBsdfDiffuse")
+    tree = shader.node_tree
+    glossy = make(tree, "ShaderNodeLightPath", "Is Glossy Ray")
+    mixed = make(tree, "ShaderNodeMixRGB", inputs={"Fac": glossy, "Color1": (0.8,) * 4, "Color2": (0.9, 0.0, 0.0, 1.0)})
+    tree.links.new(mixed, tree.nodes["Diffuse BSDF"].inputs["Color"])
+    inside.plane("Floor", 6.0, shader)
+    inside.ball("Ball", inside.material("ShaderNodeBsdfPrincipled", Base_Color=(0.5, 0.5, 0.5, 1.0), Roughness=0.5))
+
+
+@case
 def set_behind_the_scene() -> None:
     other = bpy.data.scenes.new("Set")
     item = inside.ball("Far", material(), (-1.5, 0.0, 1.0))

@@ -15,6 +15,7 @@ TOLD = {
     "without_an_output": "as in Cycles",
     "without_a_shader": "as in Cycles",
     "world_without_its_image": "as in Cycles",
+    "rays_of_mixed_closures": "asked for as by a diffuse ray",
 }
 # What differs, and is told.
 DIFFERS = {

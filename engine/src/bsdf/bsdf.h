@@ -314,13 +314,6 @@ inline bool has_specular(const Bsdf &bsdf) {
     return false;
 }
 
-inline bool has_diffuse(const Bsdf &bsdf) {
-    for (const WeightedLobe &l : bsdf)
-        if (std::holds_alternative<Lambert>(l.lobe) || std::holds_alternative<OrenNayar>(l.lobe))
-            return true;
-    return false;
-}
-
 inline bool has_subsurface(const Bsdf &bsdf) {
     for (const WeightedLobe &l : bsdf)
         if (std::holds_alternative<Subsurface>(l.lobe))

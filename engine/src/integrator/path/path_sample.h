@@ -407,13 +407,13 @@ class PathSample {
                                                   const Vec3f &geometric, LightSample &light);
     /// Turns the path into one that leaves a rough lobe along wi, sampled with density `pdf` per solid angle.
     void leave_rough(State &state, const Interaction &surface, const Vec3f &geometric, const Vec3f &wi, float pdf);
-    /// What programs know of a ray that was sampled from these closures.
-    static uint8_t ray_flags(const Bsdf &bsdf, const BsdfSample &s) {
+    /// What programs know of a ray that was sampled: the kind of the closure that it was drawn from, as in Cycles.
+    static uint8_t ray_flags(const BsdfSample &s) {
         if (s.transmitted)
             return uint8_t(kTransmissionRay | (s.specular ? kSingularRay : 0));
         if (s.specular)
             return kReflectionRay | kGlossyRay | kSingularRay;
-        return kReflectionRay | (has_diffuse(bsdf) ? kDiffuseRay : kGlossyRay);
+        return kReflectionRay | (s.diffuse ? kDiffuseRay : kGlossyRay);
     }
     /// Turns the path into one that leaves a mirror or a smooth dielectric along wi.
     void leave_specular(State &state, const Interaction &surface, const Vec3f &wi);

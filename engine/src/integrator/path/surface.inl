@@ -117,7 +117,7 @@ void PathSample<F>::scatter_at_surface(State &state, const Interaction &surface,
             continue;
         if constexpr (F.passes)
             set_shares(next, state, bsdf, wo_local, *s, scene());
-        next.ray_flags = ray_flags(bsdf, *s);
+        next.ray_flags = ray_flags(*s);
         next.emission_mode = lit_by_ris && !s->specular ? EmissionMode::skip : EmissionMode::mis;
         set_kind(next, kind_of(*s));
         if (s->specular)
@@ -253,7 +253,7 @@ void PathSample<F>::light_surface(const State &state, const Interaction &surface
     State next = state;
     next.emission_mode = EmissionMode::only;
     next.beta *= s->weight;
-    next.ray_flags = ray_flags(bsdf, *s);
+    next.ray_flags = ray_flags(*s);
     if constexpr (F.passes)
         set_shares(next, state, bsdf, oriented_surface->wo, *s, scene());
     if (s->transmitted)
