@@ -4,13 +4,12 @@ their rays start on one and at once meet the other."""
 
 from __future__ import annotations
 
-import hashlib
 from collections import defaultdict
 from collections.abc import Iterable
 
 import numpy as np
 
-from ..scene.description import Mesh, Object, Rays
+from ..scene.description import Object, Rays
 from ..scene.problems import Notices, place
 
 DECIMALS = 6  # to which matrices are held against each other
@@ -27,9 +26,8 @@ def warn_of_doubled_objects(objects: Iterable[Object], notices: Notices) -> None
     for alike in of_size.values():
         of_shape: dict[bytes, list[Object]] = defaultdict(list)
         if len(alike) > 1:
-            digests = {id(item.mesh): _digest(item.mesh) for item in alike}
             for item in alike:
-                of_shape[digests[id(item.mesh)]].append(item)
+                of_shape[item.mesh.shape_digest].append(item)
         for same in of_shape.values():
             count = sum(1 if item.instances is None else len(item.instances) for item in same)
             if len(same) > 1 and count <= MOST_PLACES:
@@ -46,14 +44,6 @@ def _warn_of(same: list[Object], notices: Notices) -> None:
             other = "another of its instances" if first == item.name else f"object '{first}'"
             notices.add(place(item.name), f"lies on {other}, which Cycles shows with dark spots")
         names.update(dict.fromkeys(places, item.name))
-
-
-def _digest(mesh: Mesh) -> bytes:
-    """Equal for meshes of the same shape."""
-    state = hashlib.blake2b(digest_size=16)
-    for rows in (mesh.vertices, mesh.triangles):
-        state.update(np.ascontiguousarray(rows).reshape(-1).view(np.uint8).data)
-    return state.digest()
 
 
 def _places(item: Object) -> list[bytes]:

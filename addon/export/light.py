@@ -23,11 +23,11 @@ from ..scene.description import (
     SunLight,
 )
 from ..scene.problems import Notices, place
-from ..scene.program import Op, TooLargeError, compile_program
+from ..scene.program import Op
 from .camera import rigid
 from .color import scaled
 from .nodes import Nodes
-from .translate.emitted import emitted
+from .translate.emitted import emitted, program_of
 from .translate.image import Images
 
 if TYPE_CHECKING:
@@ -154,11 +154,8 @@ def _color(
     factor = BLACK if surface is None else emitted(nodes, surface)
     if not isinstance(factor, Op):
         return (color[0] * factor[0], color[1] * factor[1], color[2] * factor[2]), None
-    try:
-        return color, LampProfile(compile_program([factor]), matrix)
-    except TooLargeError as error:
-        notices.add(where, f"its nodes cannot be rendered, since {error}; they are left out")
-        return color, None
+    program = program_of(nodes, factor, "they are left out")
+    return color, None if program is None else LampProfile(program, matrix)
 
 
 def _note_differences(item: bpy.types.Object, matrix: Floats, where: str, version: Version, notices: Notices) -> None:

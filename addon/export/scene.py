@@ -328,8 +328,8 @@ class _Collector:
         elif kind == "LIGHT":
             if self._motion(placed) is not None:
                 self._notices.add(place(placed.name), f"a lamp that moves while the shutter is open, {HELD_STILL}")
+            rays = placed.visibility.rays
             for matrix in placed.all_matrices():
-                rays = placed.visibility.rays
                 lamp = export_lamp(placed.item, matrix, rays, self._version, self._notices, self.images)
                 if lamp is not None:
                     self.lights.append(lamp)

@@ -11,12 +11,12 @@ import numpy as np
 
 from ..scene.description import BLACK, Environment, Floats, Lamp, Medium, Rgb, SunLight
 from ..scene.problems import ENDLESS_FOG, Notices
-from ..scene.program import Op, TooLargeError, compile_program
+from ..scene.program import Op
 from .color import add_colors, lerp, scaled
 from .light import UNLIMITED_BOUNCES
 from .nodes import Nodes
 from .sockets import Input, NotConstantError, Source
-from .translate.emitted import emitted
+from .translate.emitted import emitted, program_of
 from .translate.image import MISSING, Images
 from .visibility import world_rays
 from .volume import world_medium
@@ -93,10 +93,8 @@ def _sky_program(nodes: Nodes, surface: Input) -> Environment | None:
     radiance = emitted(nodes, surface)
     if not isinstance(radiance, Op):
         return None
-    try:
-        program = compile_program([radiance])
-    except TooLargeError as error:
-        nodes.notices.add(nodes.where, f"its nodes cannot be rendered, since {error}; constants are used")
+    program = program_of(nodes, radiance, "constants are used")
+    if program is None:
         return None
     return Environment(radiance=(1.0, 1.0, 1.0), program=program, sun=nodes.sky_sun)
 

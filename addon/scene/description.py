@@ -455,6 +455,14 @@ class Mesh:
         return state.digest()
 
     @cached_property
+    def shape_digest(self) -> bytes:
+        """Equal for meshes of the same triangles, whatever else they have."""
+        state = hashlib.blake2b(digest_size=16)
+        for array in (self.vertices, self.triangles):
+            state.update(np.ascontiguousarray(array).reshape(-1).view(np.uint8).data)
+        return state.digest()
+
+    @cached_property
     def is_closed(self) -> bool:
         """Whether it encloses a body, as the engine sees it (Mesh::is_closed)."""
         _, places = np.unique(self.vertices, axis=0, return_inverse=True)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ...scene.description import BLACK
+from ...scene.program import Op, Program, TooLargeError, compile_program
 from ..sockets import Input
 from .values import Triple, added, clamped, lerp, scaled
 
@@ -31,3 +32,12 @@ def emitted(nodes: Nodes, item: Input) -> Triple:
         return added(first, second)
     nodes.notice(node, f"is not supported in a {'world' if nodes.is_sky else 'lamp'}; it is black")
     return BLACK
+
+
+def program_of(nodes: Nodes, value: Op, otherwise: str) -> Program | None:
+    """None where it would be too large, which is told, with what happens then."""
+    try:
+        return compile_program([value])
+    except TooLargeError as error:
+        nodes.notices.add(nodes.where, f"its nodes cannot be rendered, since {error}; {otherwise}")
+        return None
